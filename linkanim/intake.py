@@ -193,7 +193,7 @@ Option = TypeVar("Option", bound=str)
 _FEW = 12
 _LONG = 60
 _BREAK = r"\s*[\t\n\r]\s*"
-_BARE_KEY = r"[A-Za-z0-9_-]+(\[\d+\])?"
+_BARE_KEY = r"[A-Za-z0-9_-]+(\[\d+\])*"
 
 
 @frozen

@@ -176,7 +176,13 @@ INERTIA = Units(
     "a moment of inertia",
     {"kg m^2": _ONE, "kg cm^2": _ONE / 10**4, "kg mm^2": _ONE / 10**6, "g mm^2": _ONE / 10**9},
 )
+FORCE = Units("a force", {"N": _ONE, "kN": _ONE * 1000})
+TORQUE = Units("a torque", {"N m": _ONE, "N mm": _ONE / 1000, "N cm": _ONE / 100, "kN m": _ONE * 1000})
 FALL = Units("an acceleration", {"m/s^2": _ONE, "mm/s^2": _ONE / 1000})
+_ALL = (
+    *(ANGLE, SPEED, TRAVEL_SPEED, ANGULAR_ACCELERATION, _LENGTH),
+    *(STIFFNESS, DAMPING, MASS, INERTIA, FORCE, TORQUE),
+)
 _SPELLINGS = (("°", "deg"), ("²", "2"), ("^2", "2"))
 """Other spellings of a part of a unit, and the one that stands for them."""
 
@@ -250,11 +256,8 @@ def names_unit(text: str, of: Units) -> bool:
 
 def is_quantity(text: str) -> bool:
     """Tell whether a text is a number with a unit that is known."""
-    match, units = (
-        _NUMBER.match(text),
-        (ANGLE, SPEED, TRAVEL_SPEED, ANGULAR_ACCELERATION, _LENGTH, STIFFNESS, DAMPING, MASS, INERTIA),
-    )
-    known = {_folded(name) for one in units for name in one.factors}
+    match = _NUMBER.match(text)
+    known = {_folded(name) for one in _ALL for name in one.factors}
     return match is not None and _folded(text[match.end() :]) in known
 
 

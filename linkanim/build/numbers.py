@@ -115,7 +115,7 @@ def thing_at(draft: Draft, scene: Scene, key: Key) -> Thing | None:
     """Return the thing of a draft to which a number of its scene belongs; None for no visible thing."""
     number = next((one for one in numbers(scene.document) if one.key == key), None)
     section, name = key[0], str(key[1]) if len(key) > 1 else ""
-    if number is None or section in ("springs", "dampers"):
+    if number is None or section in ("springs", "dampers", "loads"):
         return (str(section), name) if number and name in draft.of(str(section)) else None
     if section == "drive":
         return DRIVE

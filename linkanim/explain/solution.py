@@ -20,6 +20,7 @@ from linkanim.explain.formula import (
     ONE,
     TWO,
     ZERO,
+    Components,
     Formula,
     Symbol,
     arccos,
@@ -58,7 +59,8 @@ from linkanim.explain.synthesis import synthesis
 from linkanim.explain.whole_motion import whole_motion
 from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
-from linkanim.mechanics.linkage import RRR, Body, Crank, CrankTriangle, Cylinder, Damper, Spring, Travel
+from linkanim.mechanics.linkage import RRR, Body, Crank, CrankTriangle, Cylinder, Damper, Load, Spring, Travel
+from linkanim.mechanics.measures import loaded
 from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.quantities import input_symbol, link_labels
 from linkanim.picture.figure import figure
@@ -253,17 +255,24 @@ def _metre(rates: Rates) -> Formula:
     return number(f"{rates.work.linkage.metre:.12g}")
 
 
-def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
+def effort(rates: Rates, known: Mapping[str, Formula], motion: Any) -> Iterator[Outcome]:
     """Add the power of all forces and masses and the input's torque or force, and yield the latter.
 
-    `known` are the quantities worked out so far, by their tokens.
+    `known` are the quantities worked out so far, by their tokens; `motion` is the pose, from which the forces
+    of loads are read.
     """
     work, linkage = rates.work, rates.work.linkage
     if not rates.struts.keys() >= set(_forceful(rates)):
         work.say("The rate of a spring or damper does not follow here, nor does what the input delivers.")
         return
-    work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
-    powers = [*_strut_powers(rates), *_body_powers(rates, known)]
+    if linkage.loads:
+        work.say(
+            "The input delivers the power of springs, dampers and masses, less that of loads, over its rate:"
+        )
+    else:
+        work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
+    loads = (-_load_power(load, rates, known, motion) for load in linkage.loads)
+    powers = [*_strut_powers(rates), *_body_powers(rates, known), *loads]
     total = work.let_plain(Symbol("P"), sum(powers, ZERO), "W")
     name, unit = linkage.drive.actuator.effort
     pace = _pace(rates)
@@ -316,6 +325,44 @@ def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula
             inertia = work.quoted(Symbol("I", label), f"{body.inertia:.12g}", "kg m²")
             turning = known[f"{body.name}.angular_acceleration"] * known[f"{body.name}.angular_velocity"]
             yield work.let_plain(Symbol("P", f"{label}turn"), inertia * turning, "W")
+
+
+def _load_power(load: Load, rates: Rates, known: Mapping[str, Formula], motion: Any) -> Formula:
+    """Add the power of a load, its force being that in this pose."""
+    work, body = rates.work, rates.work.linkage.body(load.on)
+    arm, force = loaded(motion, load)
+    power = ZERO
+    if any(force):
+        sides = zip("xy", map(float, force), strict=True)
+        x, y = (work.quoted(Symbol("F", f"{load.name},{side}"), f"{part:.12g}", "N") for side, part in sides)
+        power = dot(Components(x, y), _load_velocity(load, rates, arm)) * _metre(rates)
+    turning = known.get(f"{body.name}.angular_velocity")
+    if load.torque and turning:
+        power = power + work.quoted(Symbol("T", load.name), f"{load.torque:.12g}", "N m") * turning
+    return work.let_plain(Symbol("P", load.name), power, "W")
+
+
+def _load_velocity(load: Load, rates: Rates, arm: Any) -> Components:
+    """Return how fast the place of a load moves; a block turns with the line that carries it."""
+    work, body = rates.work, rates.work.linkage.body(load.on)
+    if load.at is None or body.slider:
+        velocity = rates.of(body.slider or load.joint, 1)
+        carrier = work.linkage.slides[body.slider].axis if body.slider else None
+        if carrier is None or load.at is None:
+            return velocity
+        sides = (
+            work.known(Symbol(letter, load.name), float(part), LENGTH)
+            for letter, part in zip("pq", arm, strict=True)
+        )
+        return velocity + rates.carried(work.frame(carrier), Components(*sides), 1)
+    on, name = (body.joints[0], body.joints[1]), load.name
+    while name in work.linkage.by_name:
+        name = f"L{name}"
+    work.let_point(
+        name, work.points[on[0]] + body_point(work, on, load.at, (Symbol("p", name), Symbol("q", name)))
+    )
+    rates.let_carried(name, on, work.points[name] - work.points[on[0]], 1)
+    return rates.of(name, 1)
 
 
 # The worked solution of a pose: its chapters, and the results that they lead to.
@@ -650,7 +697,7 @@ class _Draft:
         yield from self._chapter("Springs and dampers")
         if self.linkage.forceful:
             known = {result.token: result.value for result in self.results}
-            self._found("", effort(self.rates, known))
+            self._found("", effort(self.rates, known, self.request.motion()))
             yield from self._chapter("Input")
 
     def _found(self, title: str, found: Iterable[Outcome]) -> None:

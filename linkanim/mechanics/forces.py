@@ -246,7 +246,7 @@ def _turning(motion: Any, rates: _Rates, body: Body) -> Any:
 class Demand(NamedTuple):
     """What one true period asks of the input: work (J), and its effort (N m, or N).
 
-    The work is what dampers use up: springs and masses give back what they took.
+    The work is what dampers use up and loads take: springs and masses give back what they took.
     `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded: its
     integral does not converge then, and no mean follows from the work, since the input turns back.
     """
@@ -276,21 +276,23 @@ def demand(solved: Callable[[Array], Any], phases: Array) -> Demand:
     """
     parts = [_needs_of(cycle := solved(part)) for part in in_blocks(phases)]
     effort, used = (np.concatenate(rows) for rows in zip(*parts, strict=True))
-    work = float(np.mean(used)) * len(phases) * float(phases[1]) / abs(float(cycle.input_speed))
+    work = _mean(used) * len(phases) * float(phases[1]) / abs(float(cycle.input_speed))
     if not np.isfinite(effort).all():
         return Demand(work, None, None)
     peak = _peak(lambda near: np.asarray(input_effort(solved(near))), phases, effort)
     steady = np.ndim(cycle.coordinate_rate) == 0
-    return Demand(work, peak, float(np.mean(used) / cycle.coordinate_rate) if steady else _mean(effort))
+    return Demand(work, peak, _mean(used) / float(cycle.coordinate_rate) if steady else _mean(effort))
 
 
 def _needs_of(cycle: Any) -> tuple[Array, Array]:
-    """Return the input's effort, and the power that dampers use up."""
+    """Return the input's effort, and the power that dampers use up and loads take."""
     linkage, used = cycle.mechanism.linkage, 0.0 * np.asarray(cycle.phase)
     for item in linkage.dampers:
         if item.coefficient is not None and holding(linkage.rigid_bodies, item.between) is None:
             rate = said(cycle, cycle.damper[item.name].rate, "{}/s", 1) * linkage.metre
             used = used + item.coefficient * rate * rate
+    for power, _, _ in _load_power(cycle, _MOVING):
+        used = used + power
     return np.asarray(input_effort(cycle)), used
 
 

@@ -876,6 +876,11 @@ class Load(Stated):
     The force acts in its joint `joint`; else `at`, along first -> second joint and to the left of that; of a
     block in the joint with which it slides. It is (x, y), or one that `turns` with its body: along first ->
     second joint, or along a block's line, and to the left.
+
+    With `places`, which rise, it is so many times as large as the `values` there say, linearly between them:
+    places of the input's angle (rad), period a turn, or, `over_travel`, of a block's travel, the first and
+    the last value going on beyond them. Of a block a force may act `against` its motion, or in a `way` alone:
+    +1 while it moves along its line, -1 while it moves back; then there is none where the block rests.
     """
 
     name: str
@@ -885,6 +890,11 @@ class Load(Stated):
     force: Point = (0.0, 0.0)
     torque: float = 0.0
     turns: bool = False
+    places: tuple[float, ...] = ()
+    values: tuple[float, ...] = ()
+    over_travel: bool = False
+    against: bool = False
+    way: int = 0
 
     sized: ClassVar[tuple[str, ...]] = ("at",)
 

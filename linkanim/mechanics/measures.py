@@ -501,7 +501,23 @@ def loaded(motion: Any, load: Load) -> tuple[Vector, Vector]:
         arm = between(motion.position, (body.joints[0], load.joint))
     elif load.at is not None:
         arm = turned(load.at, body_direction(motion, body))
-    return arm, turned(load.force, body_direction(motion, body)) if load.turns else load.force
+    force = turned(load.force, body_direction(motion, body)) if load.turns or load.against else load.force
+    share = _share_of(motion, load)
+    return arm, force if share is None else (force[0] * share, force[1] * share)
+
+
+def _share_of(motion: Any, load: Load) -> Any:
+    """Return how many times as large a load is as its force; None where that does not change."""
+    share: Any = None
+    if load.values:
+        place = motion.travel[load.on] if load.over_travel else motion.coordinate
+        share = np.interp(place, load.places, load.values, period=None if load.over_travel else math.tau)
+    if load.against or load.way:
+        ways = np.sign(said(motion, motion.travel_velocity[load.on], "{}/s", 1))
+        alone = -ways if load.against else abs(ways)
+        alone = np.where(ways == load.way, alone, 0.0) if load.way else alone
+        share = alone if share is None else share * alone
+    return share
 
 
 def _of_struts(kind: str) -> tuple[Measure, ...]:

@@ -83,6 +83,8 @@ class Number(NamedTuple):
             return links | {body.capitalize(): words.capitalize() for body, words in links.items()}
         if section == "bodies":
             return {"name": _named(name, names)}
+        if section == "loads":
+            return {"name": f"Load {name}"}
         if section in ("springs", "dampers"):
             strut = next(item for item in scene.linkage.springs + scene.linkage.dampers if item.name == name)
             words = scene.linkage.strut_words(strut)
@@ -99,7 +101,7 @@ def numbers(document: Mapping[str, Any]) -> Iterator[Number]:
     stated = {**document, "drive": _SPEED | document.get("drive", {})}
     for key, one, holder in fields_in(SCENE_FILE, stated):
         written = holder[key[-1]]
-        if one.plain is None or one.plain.measure is None:
+        if one.plain is None or one.plain.measure is None or (one.plain.refers and isinstance(written, str)):
             continue
         if isinstance(written, list):
             yield from (Number((*key, n), one, one.plain, n, item) for n, item in enumerate(written))

@@ -20,7 +20,7 @@ from typing import Any, get_args
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.intake import unnameable
+from linkanim.intake import few, meant, unnameable
 from linkanim.mechanics.linkage import (
     MOTOR,
     RPP,
@@ -37,10 +37,12 @@ from linkanim.mechanics.linkage import (
     Gear,
     Joint,
     Line,
+    Load,
     Pin,
     Point,
     Polar,
     Rigid,
+    RigidBody,
     Spring,
     Travel,
     coincide,
@@ -50,6 +52,8 @@ from linkanim.scenes.form import (
     ANGLE,
     COLOUR,
     DAMPING,
+    FLAG,
+    FORCE,
     GRAVITY,
     INERTIA,
     JOINT,
@@ -68,6 +72,7 @@ from linkanim.scenes.form import (
     STIFFNESS,
     TEXT,
     TEXTS,
+    TORQUE,
     Field,
     Form,
     Named,
@@ -838,6 +843,162 @@ _COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, labe
 DAMPER = form("a damper", _BETWEEN, _COEFFICIENT, make=Damper)
 
 
+# A load: where it acts, how large it is, which way it points.
+
+_MOST_ROWS = 1_000
+
+
+def _place_of_load(table: Table, key: str) -> Any:
+    """Read where a force acts: the name of a joint, or a place along a body's axis and to its left."""
+    if isinstance(table.values[key], str):
+        return table.joint(key, table.text(key))
+    return POINT.read(table, key)
+
+
+def _load_table(table: Table, key: str) -> tuple[tuple[float, float], ...] | None:
+    """Read rows of a place, an angle or a length as `over` says, and the force there; places rise."""
+    value, over = table.values[key], table.choice("over", ("angle", "travel"))
+    of, example = (ANGLE, '[["0 deg", "0 N"], ["90 deg", "50 N"]]')
+    if over == "travel":
+        of, example = OFFSET, '[["0 mm", "0 N"], ["20 mm", "50 N"]]'
+    if not isinstance(value, list) or not 2 <= len(value) <= _MOST_ROWS:
+        raise table.error(key, f"must be a list of 2 to {_MOST_ROWS} rows, such as {example}")
+    rows = table.listed(key)
+    found: list[tuple[float, float]] = []
+    for name, row in rows.values.items():
+        if not isinstance(row, list) or len(row) != 2:
+            raise rows.error(name, f"must be a place and the force there, as in {example}")
+        cells = rows.listed(name)
+        place, force = (cells.attempt(kind.read, cells, f"{name}[{n}]") for n, kind in enumerate((of, FORCE)))
+        if place is None or force is None:
+            return None
+        if found and place <= found[-1][0]:
+            raise rows.error(name, "does not come after the row before it; let the places rise")
+        found.append((float(place), force))
+    if over == "angle" and found[-1][0] - found[0][0] >= math.tau:
+        raise table.error(key, "goes over a whole turn or more, after which it begins anew; leave rows out")
+    return tuple(found)
+
+
+def _refuse_size(table: Table, values: Mapping[str, Any]) -> None:
+    if ("size" in values) == ("table" in values):
+        raise table.wrong('needs its size, such as size = "50 N", or a table instead')
+    if "over" in table and "table" not in values:
+        raise table.error("over", "goes with a table; leave it out")
+    for key in ("angle", "turns") if values["against"] else ():
+        if key in table:
+            raise table.error(key, "does not go with against, which is along the slider's line; leave it out")
+
+
+class LoadForce(NamedTuple):
+    """A force of a load as a file states it, of length 1 where a table has its sizes."""
+
+    force: Point
+    turns: bool = False
+    places: tuple[float, ...] = ()
+    values: tuple[float, ...] = ()
+    over_travel: bool = False
+    against: bool = False
+    way: int = 0
+
+
+def _load_force(
+    angle: float,
+    turns: bool,
+    against: bool,
+    over: str,
+    size: float = 1.0,
+    table: tuple[tuple[float, float], ...] = (),
+    moving: int = 0,
+) -> LoadForce:
+    places, values = zip(*table, strict=True) if table else ((), ())
+    force = (size, 0.0) if against else on_circle(size, angle)
+    return LoadForce(force, turns, places, values, bool(table) and over == "travel", against, moving)
+
+
+_ROWS: Schema = {"type": "array", "items": {}, "minItems": 2, "maxItems": 2}
+_LOAD_TABLE = ValueType(
+    _load_table,
+    'rows, `[["0 deg", "0 N"], ["90 deg", "50 N"]]`',
+    {"type": "array", "items": _ROWS, "minItems": 2, "maxItems": _MOST_ROWS},
+)
+_TWO_FORCES = listed(FORCE, 2)
+LOAD_FORCE = form(
+    "a force",
+    Field("size", FORCE, "how large it is", None, label="size"),
+    Field("angle", ANGLE, "its direction", "0 deg", label="direction"),
+    Field("turns", FLAG, "whether it turns with its body, and the angle is from the body's axis", False),
+    Field("against", FLAG, "of a slider: along its line, against its motion", False),
+    Field("table", _LOAD_TABLE, "in place of size: sizes at places, linearly between them", None),
+    Field(
+        "over",
+        choice("angle", "travel"),
+        "what the places are: the input's angle, or its slider's travel",
+        "angle",
+    ),
+    Field("moving", side("forward", "backward"), "of a slider: only while it moves so along its line", None),
+    refuse=_refuse_size,
+    make=_load_force,
+    plain=Field("force", _TWO_FORCES, "to the right, and up", None, label=("force to the right", "force up")),
+)
+_LOAD_PLACE = ValueType(
+    _place_of_load,
+    "a joint of the body, or 2 lengths",
+    {"anyOf": [NAME.schema, POINT.schema]},
+    "offset",
+    bare=True,
+    refers=True,
+)
+
+
+def _load(
+    name: str, on: str, at: Any = None, force: LoadForce | Point | None = None, torque: float = 0.0
+) -> Load:
+    where = {"joint": at} if isinstance(at, str) else {"at": at}
+    how = force if isinstance(force, LoadForce) else LoadForce(force or (0.0, 0.0))
+    return Load(name, on, **where, torque=torque, **how._asdict())
+
+
+def _refuse_idle(table: Table, values: Mapping[str, Any]) -> None:
+    if "force" not in values and "torque" not in values:
+        raise table.wrong('does nothing; give it a force, such as force = ["50 N", "0 N"], or a torque')
+
+
+LOAD = form(
+    "a load on a body",
+    Field("on", replace(NAME, words="a body"), "the body's name"),
+    Field("at", _LOAD_PLACE, "where: a joint, or along its axis and to the left", None, label=aside("place")),
+    Field("force", LOAD_FORCE, "its force", None),
+    Field("torque", TORQUE, "its torque, counter-clockwise", None, label="torque"),
+    refuse=_refuse_idle,
+    make=_load,
+)
+
+
+def refuse_misplaced(
+    loads: Table, load: Load, bodies: Mapping[str, Body], rigid: tuple[RigidBody, ...]
+) -> Load:
+    """Return a load; refuse one on no body, at a joint that is not on it, or as of a slider on none."""
+    table = loads.table(load.name)
+    body = bodies.get(load.on)
+    if body is None:
+        known = f"; there are {few(bodies)}" if bodies else "; name one in [bodies]"
+        raise table.error("on", f"no body is called {shown(load.on)}{meant(load.on, bodies)}{known}")
+    if load.joint and (
+        load.joint != body.slider if body.slider else holding(rigid, (*body.joints, load.joint)) is None
+    ):
+        own = body.slider or ", ".join(body.joints)
+        raise table.error("at", f"{load.joint} is no joint of {load.on}; name one of it ({own}), or a place")
+    if body.slider is None:
+        force = table.table("force") if isinstance(table.values.get("force"), Mapping) else table
+        for key, states in (("against", load.against), ("moving", load.way), ("over", load.over_travel)):
+            if states:
+                raise force.error(key, f"is of a slider, but {load.on} slides along no line; leave it out")
+        if load.at is None and not load.joint and load.force != (0.0, 0.0):
+            raise table.wrong(f'does not say where; write at = "{body.joints[0]}", or a place on {load.on}')
+    return load
+
+
 def _picture(table: Table, key: str) -> str:
     """Read the path of a picture, which need not exist; refuse a path that no file can have."""
     file = table.text(key)
@@ -879,6 +1040,7 @@ SCENE_FILE = form(
     Field("bodies", Named((BLOCK, BAR)), "what is drawn and named", {}),
     Field("springs", Named((SPRING,)), "the springs", {}),
     Field("dampers", Named((DAMPER,)), "the dampers", {}),
+    Field("loads", Named((LOAD,)), "the loads", {}),
     Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
     INPUT,
     Field("trace", TRACE, "the curves", {}),

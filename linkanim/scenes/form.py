@@ -9,6 +9,7 @@ Its parts, in reading order:
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -109,7 +110,18 @@ class Table(Section):
 # Everything else about the file's form is described in terms of these types.
 
 Measure = Literal[
-    "length", "angle", "speed", "offset", "ratio", "stiffness", "damping", "mass", "inertia", "gravity"
+    "length",
+    "angle",
+    "speed",
+    "offset",
+    "ratio",
+    "stiffness",
+    "damping",
+    "mass",
+    "inertia",
+    "gravity",
+    "force",
+    "torque",
 ]
 """What a number of a scene file measures; an "offset" is a length of either sign."""
 LENGTHS: tuple[Measure, ...] = ("length", "offset")
@@ -214,18 +226,21 @@ def _length(value: object, unit: str) -> float:
 
 def listed(of: ValueType, count: int) -> ValueType:
     """Return the type of a list of `count` values; errors then say `length[1]`."""
-    example = list(range(10, 10 * count + 1, 10))
+    example: list[object] = list(range(10, 10 * count + 1, 10))
+    if of.measure == "force":
+        example = [f"{number} N" for number in example]
+    several = "forces" if of.measure == "force" else "lengths"
 
     def read(table: Table, key: str) -> tuple[Any, ...] | None:
         value = table.values[key]
         if not isinstance(value, list) or len(value) != count:
-            raise table.error(key, f"must be a list of {count} lengths, such as {example}")
+            raise table.error(key, f"must be a list of {count} {several}, such as {json.dumps(example)}")
         items = table.listed(key)
         found = tuple(items.attempt(of.read, items, item) for item in items.values)
         return None if None in found else found
 
     schema = {"type": "array", "items": of.schema, "minItems": count, "maxItems": count}
-    words = of.words.replace("a length", f"{count} lengths")
+    words = of.words.replace("a length", f"{count} lengths").replace("a force", f"{count} forces")
     return ValueType(read, words, schema, of.measure, of.bare)
 
 
@@ -340,6 +355,15 @@ STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.STIFFNESS)
 DAMPING = _above("damping", 'a damping coefficient, `"200 N s/m"`', units.DAMPING)
 MASS = _above("mass", 'a mass, `"3 kg"`', units.MASS)
 INERTIA = _above("inertia", 'a moment of inertia, `"0.02 kg m^2"`', units.INERTIA)
+
+
+def _signed(measure: Measure, words: str, of: units.Units) -> ValueType:
+    base, refusal = next(iter(of.factors)), partial(_far, most=_LARGEST)
+    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal, base=base)
+
+
+FORCE = _signed("force", 'a force, `"50 N"`', units.FORCE)
+TORQUE = _signed("torque", 'a torque, `"5 N m"`', units.TORQUE)
 GRAVITY = _above("gravity", 'an acceleration, `"9.81 m/s^2"`', units.FALL)
 RATIO = ValueType(
     _ratio,
@@ -388,6 +412,7 @@ POINT_ON_BODY = replace(
 
 TEXT = ValueType(_text, "a text", {"type": "string", "maxLength": LONGEST_TEXT})
 TEXTS = ValueType(Table.texts, "a list of texts", {"type": "array", "items": {"type": "string"}})
+FLAG = ValueType(Table.flag, "`true` or `false`", {"type": "boolean"})
 COLOUR = ValueType(_colour, 'a colour, `"#d55e00"`', {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"})
 NAME = ValueType(Table.text, "a joint", {"type": "string", "minLength": 1, "maxLength": 32})
 JOINT = replace(NAME, read=lambda table, key: table.joint(key, table.text(key)), refers=True)
@@ -457,7 +482,8 @@ class Form:
 
     Where several forms are possible, `mark` is the key that shows this one, if none of the keys `without` is
     in the table. `refuse` raises where values do not go together. `together` has pairs of a key and another
-    key that it needs in the table.
+    key that it needs in the table. Where there may be a list or a single value instead of the table, `plain`
+    is its field, and makes the value by itself.
     """
 
     fields: tuple[Field, ...]
@@ -467,6 +493,7 @@ class Form:
     without: tuple[str, ...] = ()
     refuse: Callable[[Table, Mapping[str, Any]], None] = lambda table, values: None
     together: Mapping[str, str] = field(default_factory=dict)
+    plain: Field | None = None
 
     @cached_property
     def keys(self) -> Mapping[str, Field]:
@@ -483,6 +510,8 @@ class Form:
 
     def read(self, table: Table, key: str) -> Any:
         """Return the value made of the table at a key; None where anything in it has a fault."""
+        if self.plain and not isinstance(table.values[key], Mapping):
+            return self.plain.type.read(table, key)
         return self.made(table.table(key))
 
     def made(self, table: Table, *given: object, known: Iterable[str] = ()) -> Any:
@@ -566,6 +595,8 @@ def _fields_at(one: Field, values: Mapping[str, Any], path: Key) -> Iterator[tup
     value = values[path[-1]]  # type: ignore[index]
     if isinstance(one.type, ValueType):
         yield path, one, values
+    elif isinstance(one.type, Form) and one.type.plain and not isinstance(value, Mapping):
+        yield path, one.type.plain, values
     elif isinstance(one.type, Form):
         yield from fields_in(one.type, value, path)
     else:

@@ -29,6 +29,7 @@ from linkanim.mechanics.linkage import (
     Crank,
     Joint,
     Linkage,
+    Load,
     Pin,
     Rigid,
     RigidBody,
@@ -48,6 +49,7 @@ from linkanim.scenes.file_form import (
     Expansion,
     names_of,
     read_drive,
+    refuse_misplaced,
 )
 from linkanim.scenes.form import POINT, Context, Field, Key, Table, fields_in
 from linkanim.scenes.links import as_joints
@@ -479,8 +481,9 @@ def _linkage(top: Table, short: Expansion, stated: Mapping[str, Any]) -> Linkage
     bodies: dict[str, Any] = {body.name: body for body in short.bodies} | dict(stated)
     drive = top.attempt(read_drive, top, short.drive)
     springs, dampers = _part(top, "springs") or {}, _part(top, "dampers") or {}
+    loads = _loads(top, bodies)
     gravity = top.attempt(_gravity, top, bodies)
-    parts = (*bodies.values(), *springs.values(), *dampers.values())
+    parts = (*bodies.values(), *springs.values(), *dampers.values(), *loads)
     if not context.sound or drive is None or gravity is None or None in parts:
         return None
     linkage = Linkage(
@@ -491,8 +494,21 @@ def _linkage(top: Table, short: Expansion, stated: Mapping[str, Any]) -> Linkage
         dampers=tuple(dampers.values()),
         metre=units.metre(context.unit),
         gravity=gravity,
+        loads=tuple(load for load in loads if load),
     )
     return top.attempt(refuse_apart, top, linkage)
+
+
+def _loads(top: Table, bodies: Mapping[str, Body | None]) -> list[Load | None]:
+    """Return the loads; None for each with a fault, or on a body or among joints with one."""
+    stated: Mapping[str, Load | None] = _part(top, "loads") or {}
+    sound = {name: body for name, body in bodies.items() if body}
+    known = top.context.sound and len(sound) == len(bodies)
+    loads = top.table("loads") if stated else top
+    return [
+        load and top.attempt(refuse_misplaced, loads, load, sound, top.context.rigid) if known else None
+        for load in stated.values()
+    ]
 
 
 def _gravity(top: Table, bodies: Mapping[str, Body | None]) -> float | None:
@@ -524,7 +540,7 @@ def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
 # Every problem of a scene file at once, each with its line.
 
 _AT_LINE = r"\(at line (\d+), column \d+\)|\(line (\d+)\)"
-_ITEM = r"(.+)\[\d+\]"
+_ITEM = r"(.+?)(?:\[\d+\])+"
 
 
 class Problem(NamedTuple):

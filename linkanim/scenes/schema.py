@@ -29,7 +29,7 @@ def schema_of(what: ValueType | Form | Named) -> dict[str, Any]:
     if isinstance(what, ValueType):
         return dict(what.schema or {})
     if isinstance(what, Form):
-        return _table(what)
+        return {"anyOf": [_table(what), schema_of(what.plain.type)]} if what.plain else _table(what)
     entries = [schema_of(form) for form in what.forms]
     entries += [schema_of(what.plain.type)] if what.plain else []
     return {
@@ -92,6 +92,9 @@ def _section(one: Field) -> Iterator[str]:
 def _rows(form: Form, within: str = "") -> Iterator[str]:
     for one in form.fields:
         if isinstance(one.type, Form) and form is not SCENE_FILE:
+            plain = one.type.plain
+            if plain and plain.plain:
+                yield f"| `{within}{one.key}` | {plain.plain.words} | {plain.words} | {_left_out(one)} |"
             yield from _rows(one.type, f"{within}{one.key}.")
         elif one.plain and one.plain.schema is not None:
             yield f"| `{within}{one.key}` | {one.plain.words} | {one.words} | {_left_out(one)} |"

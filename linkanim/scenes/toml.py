@@ -117,7 +117,7 @@ def _keys(document: dict[str, Any]) -> list[Keys]:
 
 # A scene back to TOML: text that reads to the same linkage, saved beside what is there, never over it.
 
-_SECTIONED = ("joints", "springs", "dampers")
+_SECTIONED = ("joints", "springs", "dampers", "loads")
 """The tables in which every table gets a header of its own, as [joints.A]."""
 _MARK = "\x01"
 _INLINE = r'"\\u0001(\d+)"'

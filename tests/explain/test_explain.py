@@ -31,6 +31,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 from linkanim.units import significant
 
 DIGITS = 5.1e-5
@@ -90,6 +91,36 @@ def test_all_scenes_at_several_angles(name: str) -> None:
         found = solution(_request(name, degrees, speed=-3.0))
         assert _failing(found) == []
         assert _disagreeing(found) == [] or found.singular
+
+
+LOADED = """
+[slider-crank]
+crank = 40
+rod = 120
+[bodies.slider]
+slider = "B"
+mass = "3 kg"
+[loads.work]
+on = "slider"
+force = { table = [[90, "4 kN"], [125, "0 N"]], over = "travel", against = true, moving = "backward" }
+[loads.wind]
+on = "rod"
+at = [10, 5]
+force = { size = "50 N", angle = "30 deg", turns = true }
+torque = "0.3 N m"
+[loads.push]
+on = "crank"
+at = "A"
+force = ["0 N", "-20 N"]
+"""
+
+
+@pytest.mark.parametrize("degrees", [40.0, 87.0, 250.0])
+def test_loads_are_worked_out_with_what_the_input_delivers(degrees: float) -> None:
+    found = solution(_request(scene_from(parse(LOADED, "my.toml"), name="my", where="my.toml"), degrees))
+    assert _failing(found) == []
+    assert _disagreeing(found) == []
+    assert "input.torque" in {result.token for result in found.results}
 
 
 LOCAL = {("b", "1"), ("b", "2"), ("θ", "half"), ("d", "min"), ("d", "max")}

@@ -207,6 +207,14 @@ def test_every_kind_of_joint_has_the_forces_of_newton_and_euler_in_fifty_digits(
             assert worst(linkage, seed, static=seed == 1) < 1e-13
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("make", EVERY)
+def test_forty_linkages_of_every_kind_have_the_forces_of_newton_and_euler(make: Make) -> None:
+    with mp.workdps(DIGITS):
+        off = [worst(one, n, static=n % 4 == 0) for n, one in enumerate(linkages(make, 40))]
+    assert max(off) < 1e-12
+
+
 @pytest.mark.parametrize("make", [bar_that_limits_the_input, slot_that_limits_the_input, driven_by_a_slider])
 def test_beside_a_limit_the_forces_are_those_in_fifty_digits(make: Make) -> None:
     beside = (1e-12, -1e-12, 1e-9, -1e-6, 1e-3)

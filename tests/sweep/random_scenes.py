@@ -272,13 +272,26 @@ def _body(rng: Random, document: Document) -> None:
         table["look"] = rng.choice(("bar", "plate", "wheel", "slot", "none"))
     if rng.random() < 0.3:
         table["colour"] = rng.choice(("#000000", "#ffffff", "#d55e00"))
-    document.setdefault("bodies", {})[rng.choice(("2", "3", *NAMES))] = table
+    name = rng.choice(("2", "3", *NAMES))
+    document.setdefault("bodies", {})[name] = table
+    _load(name, document)
+
+
+def _load(body: str, document: Document) -> None:
+    """Load a body in every other scene, some without end."""
+    size = ("50 N", "-1e29 N", "1e-28 kN")[len(document["bodies"]) % 3]
+    if len(document.get("joints", {})) % 2:
+        load = {"on": body, "at": [5, -3], "force": [size, "2 N"], "torque": "-0.3 N m"}
+        document.setdefault("loads", {})[f"on {body}"[:32]] = load
 
 
 def _slider_body(rng: Random, document: Document) -> None:
     sliding = [name for name, table in document.get("joints", {}).items() if {"line", "slide"} & table.keys()]
     if sliding:
-        document.setdefault("bodies", {})[rng.choice(NAMES)] = {"slider": rng.choice(sliding)}
+        # the value first, as it is first in the order of random numbers
+        slider, name = rng.choice(sliding), rng.choice(NAMES)
+        document.setdefault("bodies", {})[name] = {"slider": slider}
+        _load(name, document)
 
 
 def _unit(rng: Random, document: Document) -> None:
