@@ -22,7 +22,7 @@ from linkanim.cli import main
 from linkanim.cli.command_table import COMMANDS, build
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.quantities import Quantity, register
-from linkanim.player.keys import as_markdown
+from linkanim.player.modes import as_markdown
 from linkanim.scenes import chapters, files, load, names, titles
 from linkanim.scenes.schema import reference
 from linkanim.synthesis import generation, guidance

@@ -5,7 +5,8 @@ From the ground up; a module imports from those before it only:
     clock      phase as a closed form of the integer frame
     action     what can be asked of the player, as plain data
     keys       the one table of keys and gamepad buttons
-    state      all that one frame of the window shows
+    state      all that one frame of the window shows, and what a mode is
+    rules      what values actions may have
     commands   the bar of commands, and menus
     edits      actions that show another scene, and that edit dimensions
     sketching  what the pencil and poses share: answers come, one is kept
@@ -14,16 +15,18 @@ From the ground up; a module imports from those before it only:
     posing     actions that set down poses
     building   actions of the sheet, on which a linkage is built
     making     actions on the steps of a construction, and on layers to be made
-    taking     how a recording is made, and where it goes
-    actions    the table of actions, and `advance(state, actions)`
-    tape       what was done, frame by frame
-    tape_file  a tape as a file
-    sound      cues, their waves, the loudspeaker
     pointing   what is under the mouse, and the words about it
     shown      the state as an overlay
     framing    the picture that fits a state, and the change to the next one
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse
+    naming     a mode: the name of the file to be written
+    taking     a mode: how a recording is made, and where it goes
+    modes      all modes, and the one table of their keys
+    actions    the table of actions, and `advance(state, actions)`
+    tape       what was done, frame by frame
+    tape_file  a tape as a file
+    sound      cues, their waves, the loudspeaker
     files      files that the window writes
     beside     processes beside the window: a search, a recording
     desktop    what the desktop asks of every program

@@ -5,28 +5,10 @@ Keys, mouse, tapes and `advance` share it. It loads nothing, so that the help of
 
 from __future__ import annotations
 
-from typing import Literal
-
 from linkanim.frozen import NamedTuple
 
 # What can be asked of the player, as plain data: keys, mouse, tapes and `advance` share it.
 
-Mode = Literal[
-    "play",
-    "paused",
-    "edit",
-    "list",
-    "shelf",
-    "pencil",
-    "poses",
-    "game",
-    "build",
-    "numbers",
-    "layers",
-    "name",
-    "record",
-]
-"""What the keys are for: the picture, or the overlay that is open."""
 Value = None | int | float | str | tuple[float, ...]
 
 

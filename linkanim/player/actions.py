@@ -11,19 +11,19 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from math import isfinite, radians
-from typing import Any, TypeVar, cast, get_args
+from typing import Any, TypeVar, get_args
 
 from linkanim.errors import LinkanimError
-from linkanim.frozen import NamedTuple
-from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
-from linkanim.player import building, dial, edits, making, pencil, posing, sketching, taking
+from linkanim.player import building, dial, edits, making, pencil, posing, rules, sketching, taking
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
 from linkanim.player.keys import BESIDE_GAMES
+from linkanim.player.modes import MODES
+from linkanim.player.naming import Naming
 from linkanim.player.sketching import come, keep, left
 from linkanim.player.state import (
     ATTRACT_AFTER,
@@ -34,6 +34,7 @@ from linkanim.player.state import (
     STIR_FRAMES,
     Editing,
     Game,
+    Rule,
     State,
     Toast,
     followed,
@@ -222,10 +223,8 @@ def back(state: State, _: None) -> State:
 
     From a mechanism it leads back to the title, if the window opened on the title.
     """
-    if state.naming:
-        return replace(state, naming=None)
-    if state.taking:
-        return replace(state, taking=None)
+    if state.top:
+        return state.top.closed(state)
     if state.help:
         return replace(state, help=False)
     if state.listing or state.browsing:
@@ -261,9 +260,6 @@ def close(state: State, _: None) -> State:
     return building.closing(state) or with_effect(state, "quit")
 
 
-_LONGEST_FILE = 100
-
-
 def save(state: State, _: None) -> State:
     """Write the scene to the file under which it was saved; ask for a name where it was not."""
     return _saved(state, ("save", state.saved_as) if state.saved_as else ("name", None))
@@ -281,30 +277,9 @@ def _saved(state: State, asked: tuple[str, str | None]) -> State:
     return with_effect(state, *asked)
 
 
-def write_name(state: State, text: str) -> State:
-    """Add to the typed name, which replaces the proposed one."""
-    return _named(state, lambda typed: (typed + text)[:_LONGEST_FILE])
-
-
-def erase_name(state: State, _: None) -> State:
-    """Erase the last letter of the name, even of a proposed one."""
-    naming = state.naming
-    return _named(state, lambda typed: (typed or (naming.proposal if naming else ""))[:-1])
-
-
-def _named(state: State, work: Callable[[str], str]) -> State:
-    naming = state.naming
-    return replace(state, naming=naming and naming._replace(typed=work(naming.typed), refusal=""))
-
-
-def take_name(state: State, _: None) -> State:
-    """Write the scene under the name, and close the question."""
-    return with_effect(replace(state, naming=None), "save_new", state.naming.name) if state.naming else state
-
-
 def take_toast(state: State, _: None) -> State:
     """Close the toast, and open the folder of the file that it says is saved."""
-    told = state.toast.text if state.toast and not state.naming else ""
+    told = state.toast.text if state.toast and not state.of(Naming) else ""
     return with_effect(replace(state, toast=None), "folder", told) if told else state
 
 
@@ -320,11 +295,10 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 # A game replaces the state while it runs; the state before stands beneath, and comes back.
 
-_OF_A_TAKE = {f"take_{name}" for name in ("places", "row", "turn", "type", "untype", "refused", "into")}
-BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "hint", "pad", "close"} | _OF_A_TAKE
+BESIDE = BESIDE_GAMES | {"take_toast", "take_into", "stir", "menu", "note", "hint", "pad", "close"}
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 _ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
-"""Actions that belong to a list, or the dialog, while one is open over a game."""
+"""Actions that belong to a list while one is open over a game."""
 
 
 def play(state: State, words: str) -> State:
@@ -350,7 +324,7 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    resumed = replace(resumed, kiosk=state.kiosk, take=state.take, taking=state.taking)
+    resumed = replace(resumed, kiosk=state.kiosk, take=state.take, modes=state.modes)
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -364,107 +338,6 @@ def with_scene(state: State, scene: Scene, phase: float = 0.0, *, paused: bool =
 
 
 # The one table of actions: what value each may have, what it does, and whether a tape keeps it.
-
-
-class Rule(NamedTuple):
-    """One action: the test that its value must pass, and the state that it makes of another.
-
-    `taped` is False for actions outside the picture, which no tape keeps. `answer` says in a word or two what
-    changed, from the states before and after.
-    """
-
-    check: Callable[[object], bool]
-    handle: Callable[[State, Any], State]
-    taped: bool = True
-    answer: Callable[[State, State], str | None] | None = None
-
-
-_MOST_NUMBERS = 1_000
-MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
-"""The greatest values of an action: no key or mouse gives more, and a tape might say anything."""
-_FARTHEST = 1e18
-"""The greatest coordinate on a sheet, where places are squared and counted in steps."""
-
-
-def _nothing(value: object) -> bool:
-    return value is None
-
-
-def _whole(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and abs(value) <= MOST_STEPS
-
-
-def _number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER
-
-
-def _share(value: object) -> bool:
-    return _number(value) and 0.0 <= cast(float, value) <= 1.0
-
-
-def _text(value: object) -> bool:
-    return isinstance(value, str) and not control_in(value)
-
-
-def _words_or_none(value: object) -> bool:
-    return value is None or _text(value)
-
-
-def _one_of(*words: str | None) -> Callable[[object], bool]:
-    return lambda value: value in words
-
-
-def _numbers(count: int) -> Callable[[object], bool]:
-    return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
-
-
-def _grouped(value: object, each: int) -> bool:
-    """Tell whether a value is a number, followed by groups of so many others."""
-    if not isinstance(value, tuple) or not 1 < len(value) <= _MOST_NUMBERS:
-        return False
-    return len(value) % each == 1 and all(map(_number, value))
-
-
-def _pairs(value: object) -> bool:
-    return _grouped(value, 2)
-
-
-def _place_of_sheet(value: object) -> bool:
-    return _numbers(2)(value) and all(abs(at) <= _FARTHEST for at in cast(tuple[float, ...], value))
-
-
-def _hand(value: object) -> bool:
-    """Tell whether a value is a hand's: x and y, how near is on a thing, the step, 0 for none."""
-    if not _numbers(4)(value):
-        return False
-    *place, reach, snap = cast(tuple[float, ...], value)
-    near = _place_of_sheet(tuple(place)) and 0.0 <= reach <= _FARTHEST
-    return near and (snap == 0.0 or 1.0 / _FARTHEST <= snap <= _FARTHEST)
-
-
-def _triples(value: object) -> bool:
-    return _grouped(value, 3)
-
-
-def _sizes_of_answers() -> tuple[int, int, int]:
-    # nothing of the search is imported before the pencil is taken
-    from linkanim.synthesis.answers import EARLIER, NUMBERS
-    from linkanim.synthesis.guidance import POSE_NUMBERS
-
-    return EARLIER, NUMBERS, POSE_NUMBERS
-
-
-def _answer(value: object) -> bool:
-    return any(_numbers(size)(value) for size in _sizes_of_answers())
-
-
-def _answers(value: object) -> bool:
-    return _grouped(value, _sizes_of_answers()[0])
-
-
-def _cards(value: object) -> bool:
-    _, *sizes = _sizes_of_answers()
-    return any(_grouped(value, size) for size in sizes)
 
 
 def _either(
@@ -552,163 +425,166 @@ def _of_look(name: str) -> Rule:
     more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over, "polygons": polygons}
     handle = more.get(name, toggling(name))
     return Rule(
-        _one_of(*TOGGLES[name].members),
+        rules.one_of(*TOGGLES[name].members),
         handle,
         answer=lambda before, after: answer(settled_look(before), settled_look(after), name),
     )
 
 
 ACTIONS: Mapping[str, Rule] = {
-    "pause": Rule(_nothing, _pause),
-    "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
-    "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
-    "level": Rule(_whole, _running(Clock.at_level), answer=_speed),  # a rung of it, 0 for the scene's own
-    "direction": Rule(_nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
-    "start": Rule(_nothing, edits.start, answer=edits.way_back),
+    "pause": Rule(rules.nothing, _pause),
+    "step": Rule(rules.whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
+    "speed": Rule(rules.whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
+    "level": Rule(
+        rules.whole, _running(Clock.at_level), answer=_speed
+    ),  # a rung of it, 0 for the scene's own
+    "direction": Rule(rules.nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
+    "start": Rule(rules.nothing, edits.start, answer=edits.way_back),
     # the phase to go to, rad
-    "scrub": Rule(_number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
-    "type_place": Rule(_text, write),
-    "erase_place": Rule(_nothing, erase),
-    "go": Rule(_nothing, go),
-    "mechanism": Rule(_whole, edits.mechanism, answer=_place),  # places further on the shelf
-    "select": Rule(_whole, edits.select, answer=_place),  # the place in the catalogue, from 0
-    "put": Rule(_whole, building.put, answer=_place),  # the place on the shelf, from 0
-    "closure": Rule(_nothing, edits.closure, answer=_closure),
+    "scrub": Rule(rules.number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
+    "type_place": Rule(rules.text, write),
+    "erase_place": Rule(rules.nothing, erase),
+    "go": Rule(rules.nothing, go),
+    "mechanism": Rule(rules.whole, edits.mechanism, answer=_place),  # places further on the shelf
+    "select": Rule(rules.whole, edits.select, answer=_place),  # the place in the catalogue, from 0
+    "put": Rule(rules.whole, building.put, answer=_place),  # the place on the shelf, from 0
+    "closure": Rule(rules.nothing, edits.closure, answer=_closure),
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
-    "chart": Rule(_whole, chart, answer=_chart),  # quantities further
-    "plot": Rule(_text, edits.plot, answer=_chart),  # a quantity's token
-    "strip": Rule(_text, edits.strip, answer=_chart),  # a quantity's token, charted below or removed
-    "help": Rule(_nothing, lambda state, _: replace(state, help=not state.help)),
+    "chart": Rule(rules.whole, chart, answer=_chart),  # quantities further
+    "plot": Rule(rules.text, edits.plot, answer=_chart),  # a quantity's token
+    "strip": Rule(rules.text, edits.strip, answer=_chart),  # a quantity's token, charted below or removed
+    "help": Rule(rules.nothing, lambda state, _: replace(state, help=not state.help)),
     # notches, about the point (x, y): window heights from the stage's middle, y down
-    "zoom": Rule(_numbers(3), zoom, answer=_zoom),
-    "pan": Rule(_numbers(2), pan),  # window heights, right and down
-    "fit": Rule(_nothing, fit, answer=_zoom),
-    "edit": Rule(_nothing, edits.edit),
-    "numbers": Rule(_nothing, building.numbers),
-    "edit_at": Rule(_text, edits.edit_at),  # a joint
-    "trace_joint": Rule(_text, edits.trace_joint),
-    "drive_joint": Rule(_text, edits.drive_joint),
-    "choose": Rule(_whole, edits.choose),
-    "pass_on": Rule(_whole, edits.pass_on),
-    "nudge": Rule(_whole, edits.nudge),
-    "type": Rule(_text, edits.write),
-    "erase": Rule(_nothing, edits.erase),
-    "take": Rule(_nothing, edits.take),
-    "grab": Rule(_text, edits.grab),  # a joint
+    "zoom": Rule(rules.numbers(3), zoom, answer=_zoom),
+    "pan": Rule(rules.numbers(2), pan),  # window heights, right and down
+    "fit": Rule(rules.nothing, fit, answer=_zoom),
+    "edit": Rule(rules.nothing, edits.edit),
+    "numbers": Rule(rules.nothing, building.numbers),
+    "edit_at": Rule(rules.text, edits.edit_at),  # a joint
+    "trace_joint": Rule(rules.text, edits.trace_joint),
+    "drive_joint": Rule(rules.text, edits.drive_joint),
+    "choose": Rule(rules.whole, edits.choose),
+    "pass_on": Rule(rules.whole, edits.pass_on),
+    "nudge": Rule(rules.whole, edits.nudge),
+    "type": Rule(rules.text, edits.write),
+    "erase": Rule(rules.nothing, edits.erase),
+    "take": Rule(rules.nothing, edits.take),
+    "grab": Rule(rules.text, edits.grab),  # a joint
     # to (x, y) of the scene as shown, in such parts of a nudge's step
-    "carry": Rule(_numbers(3), edits.carry),
-    "grab_row": Rule(_whole, edits.grab_row),  # a row of the list of dimensions
-    "pull": Rule(_whole, edits.pull),  # steps from the value that was taken hold of
-    "drop": Rule(_nothing, edits.drop),
-    "undo": Rule(_nothing, edits.undo, answer=_stuck("nothing to undo")),
-    "reset": Rule(_nothing, edits.reset),
-    "returns": Rule(_nothing, edits.returns, answer=_returns),
-    "redo": Rule(_nothing, edits.redo, answer=_stuck("nothing to redo")),
-    "pencil": Rule(_nothing, pencil.pencil),
-    "own_trace": Rule(_nothing, pencil.own),
-    "pen_down": Rule(_numbers(2), pencil.down),  # (x, y) in the scene's unit
-    "pen_to": Rule(_numbers(2), pencil.along),
-    "pen_up": Rule(_nothing, pencil.up),
-    "pen_off": Rule(_nothing, pencil.off),
-    "stroke": Rule(_pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
-    "follow": Rule(_answer, sketching.follow),  # an answer's numbers
-    "answers": Rule(_answers, pencil.answers),  # on older tapes: as "cards", without sizes and angles
-    "cards": Rule(_cards, _either(pencil.cards, posing.cards)),  # which one is shown; the numbers of each
-    "way": Rule(_cards, pencil.way),  # 0; the numbers of each answer along the front
-    "dial": Rule(_share, _either(dial.dial, posing.dial)),  # from 0 to 1, the most compact; of poses steepest
-    "dial_on": Rule(_whole, _dial_on),  # so many steps further
-    "answer": Rule(_whole, sketching.choose),  # its place in the row
-    "cognate": Rule(_whole, pencil.cognate),  # its place among those that turn fully, from 0
-    "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
-    "take_pivot": Rule(_text, pencil.take_pivot),
-    "lead": Rule(_numbers(2), pencil.lead),  # to (x, y) in the scene's unit
-    "let_go": Rule(_nothing, pencil.let_go),
-    "keep": Rule(_nothing, sketching.keep),
-    "take_back": Rule(_nothing, sketching.take_back),
-    "poses": Rule(_nothing, posing.poses),
-    "set_poses": Rule(_triples, posing.put),  # 1 with a slider, else 0; x, y, angle (rad) of each
-    "set_pin": Rule(_place_of_sheet, posing.pin),  # (x, y) in the scene's unit
-    "pinning": Rule(_nothing, posing.pinning),
-    "sliding": Rule(_nothing, posing.sliding),
-    "theory": Rule(_nothing, posing.curves),
-    "unmet": Rule(_text, posing.unmet),  # why there is no linkage
-    "play": Rule(_text, play),  # a game's words
+    "carry": Rule(rules.numbers(3), edits.carry),
+    "grab_row": Rule(rules.whole, edits.grab_row),  # a row of the list of dimensions
+    "pull": Rule(rules.whole, edits.pull),  # steps from the value that was taken hold of
+    "drop": Rule(rules.nothing, edits.drop),
+    "undo": Rule(rules.nothing, edits.undo, answer=_stuck("nothing to undo")),
+    "reset": Rule(rules.nothing, edits.reset),
+    "returns": Rule(rules.nothing, edits.returns, answer=_returns),
+    "redo": Rule(rules.nothing, edits.redo, answer=_stuck("nothing to redo")),
+    "pencil": Rule(rules.nothing, pencil.pencil),
+    "own_trace": Rule(rules.nothing, pencil.own),
+    "pen_down": Rule(rules.numbers(2), pencil.down),  # (x, y) in the scene's unit
+    "pen_to": Rule(rules.numbers(2), pencil.along),
+    "pen_up": Rule(rules.nothing, pencil.up),
+    "pen_off": Rule(rules.nothing, pencil.off),
+    "stroke": Rule(rules.pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
+    "follow": Rule(rules.answer, sketching.follow),  # an answer's numbers
+    "answers": Rule(rules.answers, pencil.answers),  # on older tapes: as "cards", without sizes and angles
+    "cards": Rule(
+        rules.cards, _either(pencil.cards, posing.cards)
+    ),  # which one is shown; the numbers of each
+    "way": Rule(rules.cards, pencil.way),  # 0; the numbers of each answer along the front
+    "dial": Rule(
+        rules.share, _either(dial.dial, posing.dial)
+    ),  # from 0 to 1, the most compact; of poses steepest
+    "dial_on": Rule(rules.whole, _dial_on),  # so many steps further
+    "answer": Rule(rules.whole, sketching.choose),  # its place in the row
+    "cognate": Rule(rules.whole, pencil.cognate),  # its place among those that turn fully, from 0
+    "take_point": Rule(rules.whole, pencil.take_point),  # its place on the stroke
+    "take_pivot": Rule(rules.text, pencil.take_pivot),
+    "lead": Rule(rules.numbers(2), pencil.lead),  # to (x, y) in the scene's unit
+    "let_go": Rule(rules.nothing, pencil.let_go),
+    "keep": Rule(rules.nothing, sketching.keep),
+    "take_back": Rule(rules.nothing, sketching.take_back),
+    "poses": Rule(rules.nothing, posing.poses),
+    "set_poses": Rule(rules.triples, posing.put),  # 1 with a slider, else 0; x, y, angle (rad) of each
+    "set_pin": Rule(rules.place_of_sheet, posing.pin),  # (x, y) in the scene's unit
+    "pinning": Rule(rules.nothing, posing.pinning),
+    "sliding": Rule(rules.nothing, posing.sliding),
+    "theory": Rule(rules.nothing, posing.curves),
+    "unmet": Rule(rules.text, posing.unmet),  # why there is no linkage
+    "play": Rule(rules.text, play),  # a game's words
     # what games have in common; each says what they do in it
-    "option": Rule(_whole, _unused),  # the place of an answer, from 0
-    "next": Rule(_nothing, _unused),
-    "turn": Rule(_whole, _unused),  # small steps, counterclockwise or to the right
-    "raise": Rule(_whole, _unused),  # steps up
-    "build": Rule(_nothing, building.build),
-    "build_on": Rule(_nothing, building.build_on),
-    "sheet": Rule(_nothing, building.new),
-    "draft": Rule(_text, building.draft),  # a draft as it is stored
-    "tool": Rule(_text, building.tool),
-    "tool_on": Rule(_whole, building.tool_on),  # tools further
-    "photo": Rule(_text, building.photo),  # a picture's file, "" for none
+    "option": Rule(rules.whole, _unused),  # the place of an answer, from 0
+    "next": Rule(rules.nothing, _unused),
+    "turn": Rule(rules.whole, _unused),  # small steps, counterclockwise or to the right
+    "raise": Rule(rules.whole, _unused),  # steps up
+    "build": Rule(rules.nothing, building.build),
+    "build_on": Rule(rules.nothing, building.build_on),
+    "sheet": Rule(rules.nothing, building.new),
+    "draft": Rule(rules.text, building.draft),  # a draft as it is stored
+    "tool": Rule(rules.text, building.tool),
+    "tool_on": Rule(rules.whole, building.tool_on),  # tools further
+    "photo": Rule(rules.text, building.photo),  # a picture's file, "" for none
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
-    "hand_down": Rule(_hand, _either(building.down, posing.down)),
-    "hand_to": Rule(_hand, _either(building.along, posing.along)),
-    "hand_up": Rule(_nothing, _either(building.up, posing.up)),
-    "cursor": Rule(_place_of_sheet, _either(building.cursor, posing.cursor)),  # (x, y) of the sheet
-    "further": Rule(_whole, _either(building.further, posing.further)),
-    "offer": Rule(_whole, building.offer),  # the place of what the last drag can mean
-    "number": Rule(_whole, building.number),
-    "option_on": Rule(_nothing, building.option),  # another of what the chosen row of the sheet can be
-    "digits": Rule(_text, building.write),
-    "undigit": Rule(_nothing, building.erase),
-    "take_number": Rule(_nothing, building.take),
-    "reassemble": Rule(_nothing, building.reassemble, answer=_closure),  # as "closure", and the sheet stays
-    "remove": Rule(_nothing, _either(building.remove, posing.remove)),
-    "trace_on": Rule(_nothing, building.trace),
-    "drive_by": Rule(_nothing, building.drive),
-    "unbuild": Rule(_nothing, building.undo, answer=_stuck("nothing to undo")),
-    "rebuild": Rule(_nothing, building.redo, answer=_stuck("nothing to redo")),
-    "construct": Rule(_whole, making.construct),  # steps further
-    "construction": Rule(_one_of(*get_args(ConstructionKind)), making.construction),
-    "layers": Rule(_nothing, making.layers),
-    "layered": Rule(_text, making.found),  # the layers as `linkanim make --json` prints them
-    "lift": Rule(_whole, making.lift),  # steps
-    "slide": Rule(_whole, making.slide),  # the step of the slider that is shown
-    "back": Rule(_nothing, back),
-    "list": Rule(_one_of(None, "below"), edits.list_, taped=False),  # "below": for a chart below the others
-    "menu": Rule(_words_or_none, edits.menu, taped=False),  # some commands, as `commands.menu_of` has them
-    "take_toast": Rule(_nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
-    "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
-    "shelf": Rule(_nothing, edits.open_shelf, taped=False),
-    "files": Rule(_text, edits.files, taped=False),  # scene files with their dates, one a line
-    "open_file": Rule(_text, effect("open"), taped=False),
-    "move": Rule(_whole, edits.move, taped=False),  # rows of the list, or places on the shelf
-    "point": Rule(_whole, edits.point, taped=False),  # the place on the shelf
-    "top": Rule(_whole, edits.top, taped=False),  # the shelf's first visible row
-    "sift": Rule(_text, edits.sift, taped=False),
-    "unsift": Rule(_nothing, edits.unsift, taped=False),
-    "record": Rule(_one_of(*taking.FORMATS), taking.record, taped=False),
-    "period": Rule(_one_of(*taking.FORMATS), taking.period, taped=False),
-    "taking": Rule(_nothing, taking.dialog),
-    "take_places": Rule(_text, taking.places),  # the current folder and places to write to, one a line
-    "take_row": Rule(_whole, taking.row),  # rows further down
-    "take_turn": Rule(_whole, taking.turn),  # values further on
-    "take_type": Rule(_text, taking.write),
-    "take_untype": Rule(_nothing, taking.erase),
-    "take_refused": Rule(_text, taking.refused),  # why it cannot be written there
-    "take_into": Rule(_text, taking.into, taped=False),  # the file
-    "screenshot": Rule(_nothing, shot("screenshot"), taped=False),
-    "svg": Rule(_nothing, shot("svg"), taped=False),
-    "share": Rule(_nothing, effect("share"), taped=False),
-    "make": Rule(_nothing, making.make, taped=False),
-    "fullscreen": Rule(_nothing, effect("fullscreen"), taped=False),
-    "save": Rule(_nothing, save, taped=False),
-    "save_as": Rule(_nothing, save_as, taped=False),
-    "write_name": Rule(_text, write_name, taped=False),
-    "erase_name": Rule(_nothing, erase_name, taped=False),
-    "take_name": Rule(_nothing, take_name, taped=False),
-    "reload": Rule(_nothing, effect("reload"), taped=False),
-    "quit": Rule(_nothing, quit_, taped=False),
-    "close": Rule(_nothing, close, taped=False),  # the window's own button
-    "sounds": Rule(_nothing, sounds, taped=False, answer=_sounds),
-    "pad": Rule(_text, pad, taped=False),  # the gamepad's name; empty for none
-    "hint": Rule(_text, with_chip, taped=False),  # what letting go would do, as a chip
-    "note": Rule(_text, with_toast, taped=False),  # something the window has to say, as a toast
+    "hand_down": Rule(rules.hand, _either(building.down, posing.down)),
+    "hand_to": Rule(rules.hand, _either(building.along, posing.along)),
+    "hand_up": Rule(rules.nothing, _either(building.up, posing.up)),
+    "cursor": Rule(rules.place_of_sheet, _either(building.cursor, posing.cursor)),  # (x, y) of the sheet
+    "further": Rule(rules.whole, _either(building.further, posing.further)),
+    "offer": Rule(rules.whole, building.offer),  # the place of what the last drag can mean
+    "number": Rule(rules.whole, building.number),
+    "option_on": Rule(rules.nothing, building.option),  # another of what the chosen row of the sheet can be
+    "digits": Rule(rules.text, building.write),
+    "undigit": Rule(rules.nothing, building.erase),
+    "take_number": Rule(rules.nothing, building.take),
+    "reassemble": Rule(
+        rules.nothing, building.reassemble, answer=_closure
+    ),  # as "closure", and the sheet stays
+    "remove": Rule(rules.nothing, _either(building.remove, posing.remove)),
+    "trace_on": Rule(rules.nothing, building.trace),
+    "drive_by": Rule(rules.nothing, building.drive),
+    "unbuild": Rule(rules.nothing, building.undo, answer=_stuck("nothing to undo")),
+    "rebuild": Rule(rules.nothing, building.redo, answer=_stuck("nothing to redo")),
+    "construct": Rule(rules.whole, making.construct),  # steps further
+    "construction": Rule(rules.one_of(*get_args(ConstructionKind)), making.construction),
+    "layers": Rule(rules.nothing, making.layers),
+    "layered": Rule(rules.text, making.found),  # the layers as `linkanim make --json` prints them
+    "lift": Rule(rules.whole, making.lift),  # steps
+    "slide": Rule(rules.whole, making.slide),  # the step of the slider that is shown
+    "back": Rule(rules.nothing, back),
+    "list": Rule(
+        rules.one_of(None, "below"), edits.list_, taped=False
+    ),  # "below": for a chart below the others
+    "menu": Rule(
+        rules.words_or_none, edits.menu, taped=False
+    ),  # some commands, as `commands.menu_of` has them
+    "take_toast": Rule(rules.nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
+    "stir": Rule(rules.nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
+    "shelf": Rule(rules.nothing, edits.open_shelf, taped=False),
+    "files": Rule(rules.text, edits.files, taped=False),  # scene files with their dates, one a line
+    "open_file": Rule(rules.text, effect("open"), taped=False),
+    "move": Rule(rules.whole, edits.move, taped=False),  # rows of the list, or places on the shelf
+    "point": Rule(rules.whole, edits.point, taped=False),  # the place on the shelf
+    "top": Rule(rules.whole, edits.top, taped=False),  # the shelf's first visible row
+    "sift": Rule(rules.text, edits.sift, taped=False),
+    "unsift": Rule(rules.nothing, edits.unsift, taped=False),
+    "screenshot": Rule(rules.nothing, shot("screenshot"), taped=False),
+    "svg": Rule(rules.nothing, shot("svg"), taped=False),
+    "share": Rule(rules.nothing, effect("share"), taped=False),
+    **{name: rule for mode in MODES for name, rule in mode.actions.items()},
+    "record": Rule(rules.one_of(*taking.FORMATS), taking.record, taped=False),
+    "period": Rule(rules.one_of(*taking.FORMATS), taking.period, taped=False),
+    "take_into": Rule(rules.text, taking.into, taped=False),  # the file
+    "make": Rule(rules.nothing, making.make, taped=False),
+    "fullscreen": Rule(rules.nothing, effect("fullscreen"), taped=False),
+    "save": Rule(rules.nothing, save, taped=False),
+    "save_as": Rule(rules.nothing, save_as, taped=False),
+    "reload": Rule(rules.nothing, effect("reload"), taped=False),
+    "quit": Rule(rules.nothing, quit_, taped=False),
+    "close": Rule(rules.nothing, close, taped=False),  # the window's own button
+    "sounds": Rule(rules.nothing, sounds, taped=False, answer=_sounds),
+    "pad": Rule(rules.text, pad, taped=False),  # the gamepad's name; empty for none
+    "hint": Rule(rules.text, with_chip, taped=False),  # what letting go would do, as a chip
+    "note": Rule(rules.text, with_toast, taped=False),  # something the window has to say, as a toast
 }
 
 
@@ -787,7 +663,8 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
         if state.by_itself:
             return leave(state)
-    listed = action.name in _ON_A_LIST and (state.listing or state.taking) is not None
+    own = state.top is not None and action.name in (*state.top.actions, "back")
+    listed = own or (action.name in _ON_A_LIST and state.listing is not None)
     if state.game and not listed and action.name not in BESIDE | _SHEETS:
         return _in_a_game(state, state.game, action)
     if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:

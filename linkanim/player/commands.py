@@ -8,11 +8,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import Button, CommandBar
-from linkanim.player.action import Action, Mode
+from linkanim.player.action import Action
 from linkanim.player.clock import FASTEST, SLOWEST
-from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands, group_key, row_actions
+from linkanim.player.keys import (
+    BACK_BAR,
+    BESIDE_GAMES,
+    GROUPS,
+    HOME_BAR,
+    LAST_BAR,
+    MOVING_BAR,
+    SPEED,
+    BarEntry,
+    ModeKeys,
+    commands,
+    group_key,
+    row_actions,
+)
 from linkanim.player.state import BLANK, STIR_FRAMES, Entries, ListRow, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
@@ -21,30 +33,10 @@ _FADING = 24
 """The frames over which the bar fades out."""
 
 
-class BarEntry(NamedTuple):
-    """A command on the bar: its icon, the action of the table, its rank, whether it leads, where it is."""
-
-    icon: str
-    action: Action
-    rank: int
-    leads: bool = False
-    on_chart: bool = False
-
-
-_SPEED = Action("speed", 1)
 _NONE_YET, _NO_CHANGE = "there is no linkage to keep yet", "there is nothing to undo"
-_BACK = BarEntry("back", Action("back"), 0)
-_HOME = BarEntry("home", Action("play", "title door=play"), 2)
-_RUNNING = (
-    BarEntry("step back", Action("step", -1), 8, leads=True),
-    BarEntry("pause", Action("pause"), 0),
-    BarEntry("step on", Action("step", 1), 7),
-    BarEntry("speed", _SPEED, 6),
-)
-_LAST = (BarEntry("more", Action("menu"), -1, leads=True), BarEntry("help", Action("help"), 5))
 _SCENE = (
     BarEntry("shelf", Action("shelf"), 1),
-    *_RUNNING,
+    *MOVING_BAR,
     BarEntry("trace", Action("trace"), 11, leads=True),
     BarEntry("names", Action("names"), 10),
     BarEntry("arrows", Action("menu", "arrows"), 9),
@@ -54,13 +46,13 @@ _SCENE = (
     BarEntry("build", Action("build"), 12),
     BarEntry("pencil", Action("pencil"), 13),
     BarEntry("record", Action("taking"), 6, leads=True),
-    *_LAST,
+    *LAST_BAR,
     BarEntry("chart", Action("chart", 1), 2, on_chart=True),
     BarEntry("axis", Action("over"), 3, on_chart=True),
     BarEntry("add", Action("list", "below"), 4, on_chart=True),
     BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
-_LISTED = (_BACK, *_SCENE)
+_LISTED = (BACK_BAR, *_SCENE)
 """In a list the way back stands where the way home stands without: the other buttons stay where they are."""
 _CONSTRUCTED = {
     "edit": BarEntry("before", Action("construct", -1), 3, leads=True),
@@ -71,50 +63,52 @@ _CONSTRUCTED = {
 _BUILD_ON = BarEntry("build", Action("build_on"), 12)
 """Beside the list of dimensions, the tools work on the linkage that is shown."""
 _SHEET = (
-    _BACK,
-    _HOME,
-    *_RUNNING,
+    BACK_BAR,
+    HOME_BAR,
+    *MOVING_BAR,
     BarEntry("edit", Action("numbers"), 7, leads=True),
     BarEntry("undo", Action("unbuild"), 5, leads=True),
     BarEntry("redo", Action("rebuild"), 9),
     BarEntry("new", Action("sheet"), 6, leads=True),
     BarEntry("save", Action("save"), 4),
     BarEntry("done", Action("build"), 3),
-    *_LAST,
+    *LAST_BAR,
 )
 _PENCIL = (
-    _BACK,
-    _HOME,
-    *_RUNNING,
+    BACK_BAR,
+    HOME_BAR,
+    *MOVING_BAR,
     BarEntry("again", Action("take_back"), 3, leads=True),
     BarEntry("done", Action("keep"), 1),
-    *_LAST,
+    *LAST_BAR,
 )
 _POSES = (
-    _BACK,
-    _HOME,
-    *_RUNNING,
+    BACK_BAR,
+    HOME_BAR,
+    *MOVING_BAR,
     BarEntry("again", Action("take_back"), 3, leads=True),
     BarEntry("construction", Action("theory"), 4),
     BarEntry("done", Action("keep"), 1),
-    *_LAST,
+    *LAST_BAR,
 )
-_HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
-    "play": (_HOME._replace(rank=0), *_SCENE),
-    "paused": (_HOME._replace(rank=0), *_SCENE),
+_HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
+    "play": (HOME_BAR._replace(rank=0), *_SCENE),
+    "paused": (HOME_BAR._replace(rank=0), *_SCENE),
     "edit": tuple(_BUILD_ON if one.icon == "build" else one for one in _LISTED),
     "list": _LISTED,
-    "shelf": (_BACK, _HOME, *_LAST),
+    "shelf": (BACK_BAR, HOME_BAR, *LAST_BAR),
     "pencil": _PENCIL,
     "poses": _POSES,
     **{"build": _SHEET, "numbers": _SHEET},
     "layers": (
-        *(_BACK, _HOME, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
-        *(BarEntry("farther", Action("lift", 1), 4), BarEntry("save", Action("make"), 3, leads=True), *_LAST),
+        *(BACK_BAR, HOME_BAR, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
+        *(
+            BarEntry("farther", Action("lift", 1), 4),
+            BarEntry("save", Action("make"), 3, leads=True),
+            *LAST_BAR,
+        ),
     ),
-    "game": (_BACK, _HOME, *_LAST),
-    "name": (_BACK, BarEntry("done", Action("take_name"), 1)),
-    "record": (_BACK, BarEntry("done", Action("take_start"), 1)),
+    "game": (BACK_BAR, HOME_BAR, *LAST_BAR),
 }
 
 
@@ -142,7 +136,7 @@ def _entries(state: State) -> tuple[BarEntry, ...]:
     """Return the commands on the bar."""
     if state.constructed and state.mode in ("play", "paused"):
         return tuple(_CONSTRUCTED.get(one.icon, one) for one in _LISTED)
-    return _HANDLES[state.mode]
+    return state.top.bar if state.top else _HANDLES[state.mode]
 
 
 _OF_THE_LIST: Mapping[Action, tuple[Action, ...]] = {
@@ -170,7 +164,7 @@ def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
 
 def slides(state: State, number: int) -> bool:
     """Tell whether a button is a slider; False for a number that this mode's bar does not have."""
-    return any(one.action == _SPEED for one in _entries(state)[number : number + 1])
+    return any(one.action == SPEED for one in _entries(state)[number : number + 1])
 
 
 def _buttons(state: State) -> tuple[Button, ...]:
@@ -179,8 +173,8 @@ def _buttons(state: State) -> tuple[Button, ...]:
 
 def _button(state: State, handle: BarEntry) -> Button:
     action = handle.action
-    name, key = _called(state.mode, action)
-    share = (state.clock.level - SLOWEST) / (FASTEST - SLOWEST) if action == _SPEED else None
+    name, key = _called(state.keys, action)
+    share = (state.clock.level - SLOWEST) / (FASTEST - SLOWEST) if action == SPEED else None
     icon = _ICONS[handle.icon](state) if handle.icon in _ICONS else handle.icon
     on = action in _ON and _ON[action](state)
     reason = lack(state, action)
@@ -188,9 +182,9 @@ def _button(state: State, handle: BarEntry) -> Button:
 
 
 @lru_cache(maxsize=256)
-def _called(mode: Mode, action: Action) -> tuple[str, str]:
+def _called(mode: ModeKeys, action: Action) -> tuple[str, str]:
     """Return a command's name and its key; for a group of commands, the group's name and their keys."""
-    if action == _SPEED:
+    if action == SPEED:
         key = next(key for _, key, one in commands(mode) if one == action)
         return "speed", "↑ ↓" if key else ""
     if action.name == "menu" and action.value is not None:
@@ -220,7 +214,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     "chosen", the chosen thing of a sheet; "joint", "link" or "strut" with a name; "things", all that have
     commands; or "keys" with the keys of a line of the help.
     """
-    usual = {action: ListRow(words, key, action) for words, key, action in commands(state.mode)}
+    usual = {action: ListRow(words, key, action) for words, key, action in commands(state.keys)}
     if what is None or what in GROUPS:
         return _of_mode(state, usual, what)
     if what == "things":
@@ -228,7 +222,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
         return Entries("Joints and links", rows)
     if what.startswith("keys "):
         keys = what.removeprefix("keys ")
-        return Entries(keys, tuple(usual[one] for one in row_actions(state.mode, keys) if one in usual))
+        return Entries(keys, tuple(usual[one] for one in row_actions(state.keys, keys) if one in usual))
     if what in _CHOSEN:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
@@ -236,7 +230,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     return Entries(what[:1].upper() + what[1:], (*rows, usual[Action("names")])) if rows else None
 
 
-def line_asks(mode: Mode, keys: str) -> Action | None:
+def line_asks(mode: ModeKeys, keys: str) -> Action | None:
     """Return the action of a line of the help, or the one that lists several; None where it has none.
 
     The line is found by its keys as they are written.
@@ -248,7 +242,7 @@ def line_asks(mode: Mode, keys: str) -> Action | None:
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
     found = [row for action, row in usual.items() if action.name != "menu"] + [*_constructions(state)]
     if state.game:
-        own = {bind.action for bind in binds_of("game")}
+        own = {bind.action for bind in state.keys.binds}
         found = [row for row in found if row.action in own or row.action.name in BESIDE_GAMES]
     if group is None:
         return Entries("Commands", tuple(found))
@@ -372,6 +366,6 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("pause"): _nothing_moves,
     Action("step", -1): _nothing_moves,
     Action("step", 1): _nothing_moves,
-    _SPEED: _nothing_moves,
+    SPEED: _nothing_moves,
 }
 """Why a command cannot be done, for commands that may be impossible."""

@@ -7,20 +7,19 @@ pans or moves the crank, the chart's cursor, a joint or a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import zip_longest
 from math import dist, isfinite, isnan, log
-from typing import Literal
+from typing import Literal, Protocol
 
 import pygame
 from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple
-from linkanim.player import taking
-from linkanim.player.action import Action, Mode
+from linkanim.player.action import Action
 from linkanim.player.commands import line_asks, pressed, slid, slides
-from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
+from linkanim.player.keys import Bind, ModeKeys, Press, bind_of, button_name, hat_name, key_of
 from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
 from linkanim.player.state import State
@@ -58,10 +57,10 @@ class Repeats:
 
 
 class Keyboard:
-    """Knows which bound key is being held, and since when."""
+    """Knows the bound keys by their names, which of them is being held, and since when."""
 
-    def __init__(self) -> None:
-        self._names = {code(name): name for name in key_names()}
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = {code(name): name for name in names}
         self._key: int = 0
         self._repeats = Repeats()
 
@@ -226,7 +225,7 @@ class Pads:
             self._frames = None
             pygame.joystick.init()
 
-    def actions(self, event: Event, mode: Mode, frame: int) -> tuple[Action, ...]:
+    def actions(self, event: Event, mode: ModeKeys, frame: int) -> tuple[Action, ...]:
         """Return the actions of an event; a stick's position is only remembered, for `turned`."""
         match event.type:
             case pygame.JOYDEVICEADDED:
@@ -269,15 +268,15 @@ class Pads:
         pad = self._pads.get(getattr(event, "instance_id", -1))
         return pad is None or pad.has_hat
 
-    def _pressed(self, name: str, mode: Mode, frame: int) -> tuple[Action, ...]:
+    def _pressed(self, name: str, mode: ModeKeys, frame: int) -> tuple[Action, ...]:
         bind = _bound(name, mode)
         self._repeats.begin(bind, frame)
         return (bind.action,) if bind else ()
 
 
-def _bound(name: str, mode: Mode) -> Bind | None:
+def _bound(name: str, mode: ModeKeys) -> Bind | None:
     """Return the bind of a button, that of its key; None where it has none."""
-    key = key_of(name, listed=mode not in ("play", "paused"))
+    key = key_of(name, listed=mode.name not in ("play", "paused"))
     shift = key.startswith("shift+")
     return bind_of(Press(key.removeprefix("shift+"), shift=shift), mode) if key else None
 
@@ -294,7 +293,7 @@ _RIGHT = 3
 _LONG, _TOO_LONG, _LONG_STILL = 36, 150, 0.012
 """A press of so many frames, between two numbers, is long if it moves less than this (window heights)."""
 _LET_GO_FOR = "let go: commands"
-_THINGS_IN = frozenset[Mode]({"play", "paused", "edit"})
+_THINGS_IN = frozenset({"play", "paused", "edit"})
 """The modes in which joints and links have commands of their own."""
 _TENTHS = 0.1
 _PULL = 0.011
@@ -356,9 +355,9 @@ class Mouse:
     """Knows what is being dragged from where and how far, and where the mouse was last, in pixels."""
 
     def __init__(self) -> None:
-        self._drag: Drag | None = None
-        self._at = self._begun = (0.0, 0.0)
-        self._far, self._steps = 0.0, 0
+        self.drag: Drag | None = None
+        self.at = self.begun = (0.0, 0.0)
+        self.far, self.steps = 0.0, 0
         self._turned: int | None = None
         self._slider = 0
         self._cognate: int | None = None
@@ -370,37 +369,37 @@ class Mouse:
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a mouse event."""
-        kind, notches, (x, y) = _KINDS[event.type], getattr(event, "y", 0), self._at
+        kind, notches, (x, y) = _KINDS[event.type], getattr(event, "y", 0), self.at
         if kind in ("move", "down"):
             self._seen, self._moved_in = True, screen.state.frame
         if kind == "down" and event.button == _RIGHT:
-            self._at = event.pos
+            self.at = event.pos
             return self._menu(screen)
         if getattr(event, "button", 1) != 1 or (kind == "wheel" and not notches):
             return ()
-        self._at = getattr(event, "pos", self._at)
+        self.at = getattr(event, "pos", self.at)
         if kind == "down":
-            self._begun, self._far, self._down_in = self._at, 0.0, screen.state.frame
+            self.begun, self.far, self._down_in = self.at, 0.0, screen.state.frame
             self._draws = False
-        self._far = max(self._far, math.dist(self._begun, self._at))
+        self.far = max(self.far, math.dist(self.begun, self.at))
         if kind == "up" and self._presses_long(screen):
             return self._pressed_long(screen)
         height = screen.size[1]
-        gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
+        gesture = Gesture(kind, notches, ((self.at[0] - x) / height, (self.at[1] - y) / height))
         found = self._on_the_bar(gesture, screen)
-        stirred = (Action("stir"),) * (kind in ("move", "down") and self._drag in (None, "bar", "speed"))
+        stirred = (Action("stir"),) * (kind in ("move", "down") and self.drag in (None, "bar", "speed"))
         return (*stirred, *(self._elsewhere(gesture, screen) if found is None else found))
 
     def _elsewhere(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a gesture on anything that lies below the bar."""
-        if gesture.kind == "down" and screen.on_toast(*self._at):
-            self._drag = "bar"
+        if gesture.kind == "down" and screen.on_toast(*self.at):
+            self.drag = "bar"
             return (Action("take_toast"),)
-        if screen.state.help and self._drag is None and not screen.state.browsing:
+        if screen.state.help and self.drag is None and not screen.state.browsing:
             return self._on_the_help(screen) if gesture.kind == "down" else ()
         if screen.state.browsing:
             return self._on_the_shelf(gesture, screen)
-        if self._drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self._at)):
+        if self.drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self.at)):
             return self._on_the_slider(gesture, screen)
         modes = {
             "poses": self._of_the_poses,
@@ -408,30 +407,29 @@ class Mouse:
             **{"build": self._of_the_sheet, "numbers": self._of_the_numbers, "edit": self._of_the_tools},
             "pencil": self._of_the_pencil,
             "game": self._in_a_game,
-            "record": self._on_the_dialog,
         }
-        mode = modes.get(screen.state.mode)
-        found = mode(gesture, screen) if mode else None
+        top, mode = screen.state.top, modes.get(screen.state.mode)
+        found = top.mouse(gesture, self, screen) if top else mode(gesture, screen) if mode else None
         found = self._on_a_list(gesture, screen) if found is None else found
         return self._on_the_picture(gesture, screen) if found is None else found
 
     def _menu(self, screen: Screen) -> tuple[Action, ...]:
         """Return the action that opens the list for what is under the mouse, or for all, or closes it."""
-        if screen.state.mode not in MENU_IN:
+        if screen.state.keys.alone:
             return ()
         if screen.state.listing:
             return (Action("back"),)
-        if screen.button_at(*self._at) is not None:
+        if screen.button_at(*self.at) is not None:
             return (Action("menu"),)
         if screen.state.building:
-            chosen = screen.on_sheet(*self._at)
+            chosen = screen.on_sheet(*self.at)
             click = (self._handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
             return click if chosen else (Action("menu"),)
-        if screen.state.mode in _THINGS_IN and (found := screen.pointed(*self._at, _NEAR * screen.size[1])):
+        if screen.state.mode in _THINGS_IN and (found := screen.pointed(*self.at, _NEAR * screen.size[1])):
             of_scene = found.thing and found.thing.kind != "row"
             words = f"{found.thing.kind} {found.thing.name}" if found.thing and of_scene else ""
-            return (Action("menu", words or ("chart" if screen.charted(*self._at) is not None else None)),)
-        return (Action("menu", "chart" if screen.charted(*self._at) is not None else None),)
+            return (Action("menu", words or ("chart" if screen.charted(*self.at) is not None else None)),)
+        return (Action("menu", "chart" if screen.charted(*self.at) is not None else None),)
 
     def held(self, screen: Screen) -> tuple[Action, ...]:
         """Return the action of a button or finger that is held still for long: it opens a list."""
@@ -441,32 +439,32 @@ class Mouse:
     def _presses_long(self, screen: Screen) -> bool:
         """Return whether a release now ends a long press: nothing was dragged."""
         long = _LONG <= screen.state.frame - self._down_in < _TOO_LONG
-        still = self._far <= _LONG_STILL * screen.size[1]
-        return long and still and self._drag in _LET_GO and not self._draws
+        still = self.far <= _LONG_STILL * screen.size[1]
+        return long and still and self.drag in _LET_GO and not self._draws
 
     def _pressed_long(self, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a long press: those of a right click, after ending what the press began."""
-        ended, self._drag = _LET_GO[self._drag], None
+        ended, self.drag = _LET_GO[self.drag], None
         return (*((Action(ended),) if ended else ()), *self._menu(screen))
 
     def _on_the_help(self, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a click on the help: those of its line; a click beside the help closes it."""
-        self._drag, keys = "bar", screen.help_at(*self._at)
+        self.drag, keys = "bar", screen.help_at(*self.at)
         if keys is None:
             return (Action("help"),)
-        asked = line_asks(screen.state.mode, keys) if keys else None
+        asked = line_asks(screen.state.keys, keys) if keys else None
         return (Action("help"), asked) if asked else ()
 
     def _on_the_bar(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a gesture on the bar: of a button, or of a dragged slider; None off it."""
-        if self._drag in ("bar", "speed"):
-            drag, self._drag = self._drag, None if gesture.kind == "up" else self._drag
+        if self.drag in ("bar", "speed"):
+            drag, self.drag = self.drag, None if gesture.kind == "up" else self.drag
             moved = drag == "speed" and gesture.kind == "move"
             return self._slid(screen) if moved and slides(screen.state, self._slider) else ()
         if gesture.kind == "down" and self._is_second(screen):
-            self._drag = "bar"
+            self.drag = "bar"
             return self._pressed
-        number = screen.button_at(*self._at) if self._drag is None else None
+        number = screen.button_at(*self.at) if self.drag is None else None
         if number is None or gesture.kind == "up":
             return None
         is_slider = number >= 0 and slides(screen.state, number)
@@ -474,10 +472,10 @@ class Mouse:
             return (Action("speed", gesture.notches),) if is_slider else ()
         if gesture.kind == "move":
             return ()
-        self._drag, self._slider = "speed" if is_slider else "bar", number
+        self.drag, self._slider = "speed" if is_slider else "bar", number
         if is_slider or number < 0:
             return self._slid(screen) if is_slider else ()
-        self._pressed, self._pressed_at = pressed(screen.state, number), self._at
+        self._pressed, self._pressed_at = pressed(screen.state, number), self.at
         self._pressed_in = screen.state.frame
         return self._pressed
 
@@ -487,16 +485,16 @@ class Mouse:
         It then does once more what it did, as a second press of a key does: it undoes it.
         """
         at_once = screen.state.frame - self._pressed_in <= _DOUBLE
-        return at_once and math.dist(self._pressed_at, self._at) <= _STILL * screen.size[1]
+        return at_once and math.dist(self._pressed_at, self.at) <= _STILL * screen.size[1]
 
     def _slid(self, screen: Screen) -> tuple[Action, ...]:
-        return slid(screen.state, self._slider, screen.share_at(self._slider, self._at[0]))
+        return slid(screen.state, self._slider, screen.share_at(self._slider, self.at[0]))
 
     def on_bar(self, screen: Screen) -> int | None:
         """Return the number of the bar's command under the mouse; None before the mouse was seen."""
-        if not self._seen or self._drag not in (None, "bar", "speed"):
+        if not self._seen or self.drag not in (None, "bar", "speed"):
             return None
-        return self._slider if self._drag == "speed" else screen.button_at(*self._at)
+        return self._slider if self.drag == "speed" else screen.button_at(*self.at)
 
     def _on_the_picture(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Zoom, pan, or drag what is under the mouse."""
@@ -507,43 +505,43 @@ class Mouse:
             case "wheel":
                 return self._zoomed(gesture.notches, screen)
             case "down" if row is not None and (asked := row_asks(screen.state, row)):
-                self._drag = "bar"
+                self.drag = "bar"
                 return asked
             case "down" if row in SPEED_ROWS:
-                self._drag, self._steps = "pace", 0
+                self.drag, self.steps = "pace", 0
                 return ()
             case "down":
-                if token := screen.chart_titled_at(*self._at):
-                    self._drag = "bar"
+                if token := screen.chart_titled_at(*self.at):
+                    self.drag = "bar"
                     return (Action("strip", token),)
-                if order := screen.polygon_at(*self._at):
-                    self._drag, alone = "bar", screen.state.look.large_polygon
+                if order := screen.polygon_at(*self.at):
+                    self.drag, alone = "bar", screen.state.look.large_polygon
                     return (Action("large_polygon"),) * ((3 - alone) if alone else order)
-                handle = screen.handle_at(*self._at, _REACH * screen.size[1])
-                curve = None if handle else screen.on_trace(*self._at, _NEAR * screen.size[1])
-                self._drag = "joint" if handle or curve else self._grabbed(screen)
+                handle = screen.handle_at(*self.at, _REACH * screen.size[1])
+                curve = None if handle else screen.on_trace(*self.at, _NEAR * screen.size[1])
+                self.drag = "joint" if handle or curve else self._grabbed(screen)
                 if handle:
                     return (Action("grab", handle),)
                 if curve:  # the curve's joint moves to the hand
                     return (Action("grab", curve[0]), *self._moved(screen))
-                return self._moved(screen) if self._drag == "chart" else ()
+                return self._moved(screen) if self.drag == "chart" else ()
             case "up":
-                held, self._drag = self._drag, None
+                held, self.drag = self.drag, None
                 return (Action("drop"),) if held == "joint" else ()
-        return (Action("pan", gesture.by),) if self._drag == "pan" else self._moved(screen)
+        return (Action("pan", gesture.by),) if self.drag == "pan" else self._moved(screen)
 
     def _on_a_row(self, screen: Screen) -> str | None:
         """Return the label of the row of numbers under the mouse; None elsewhere."""
-        found = screen.pointed(*self._at, _NEAR * screen.size[1]) if self._drag is None else None
+        found = screen.pointed(*self.at, _NEAR * screen.size[1]) if self.drag is None else None
         return found.thing.name if found and found.thing and found.thing.kind == "row" else None
 
     def _on_a_list(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions on the open list of a click, the wheel or a dragged value; None off it."""
-        if self._drag == "row" and gesture.kind in ("move", "up"):
+        if self.drag == "row" and gesture.kind in ("move", "up"):
             return self._pulled(gesture, screen)
         if (further := self._scrolled(gesture, screen)) is not None:
             return further
-        row = screen.row_at(*self._at) if self._drag in (None, "row") else None
+        row = screen.row_at(*self.at) if self.drag in (None, "row") else None
         if row is None:
             return None
         editing = screen.state.mode in ("edit", "numbers")
@@ -555,36 +553,22 @@ class Mouse:
         if gesture.kind != "down" or row < 0:
             return ()
         if not editing:
-            return (Action("tick" if screen.on_box(self._at[0]) else "pick", row),)
-        self._drag, self._steps = "row", 0
+            return (Action("tick" if screen.on_box(self.at[0]) else "pick", row),)
+        self.drag, self.steps = "row", 0
         return (Action("grab_row", row),)
-
-    def _on_the_dialog(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""
-        row, dialog = screen.row_at(*self._at) if self._drag is None else None, screen.state.taking
-        if row is None or dialog is None or gesture.kind not in ("wheel", "down"):
-            return None
-        if row < 0:
-            return ()
-        does = taking.rows(screen.state)[row].action
-        to = Action("take_row", row - dialog.row)
-        if gesture.kind == "wheel":
-            return () if does else (to, Action("take_turn", gesture.notches))
-        self._drag = "bar"
-        return (to, Action("take_start") if does else Action("take_turn", 1))
 
     def _scrolled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a gesture on the open list's scroll bar; None off it."""
-        held = self._drag == "scroll"
+        held = self.drag == "scroll"
         if held and gesture.kind == "up":
-            self._drag = None
+            self.drag = None
             return ()
-        if gesture.kind not in (("move",) if held else ("down",)) or self._drag not in (None, "scroll"):
+        if gesture.kind not in (("move",) if held else ("down",)) or self.drag not in (None, "scroll"):
             return None
-        further = screen.scrolled_by(*self._at, held=held)
+        further = screen.scrolled_by(*self.at, held=held)
         if further is None:
             return () if held else None
-        self._drag = "scroll"
+        self.drag = "scroll"
         return (Action("move", further),) if further else ()
 
     def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
@@ -592,10 +576,10 @@ class Mouse:
 
         The crank pin is dragged as without a game.
         """
-        if gesture.kind != "down" or self._drag is not None:
+        if gesture.kind != "down" or self.drag is not None:
             return None
-        option = screen.option_at(*self._at)
-        at_joint = screen.handle_at(*self._at, _REACH * screen.size[1]) is not None
+        option = screen.option_at(*self.at)
+        at_joint = screen.handle_at(*self.at, _REACH * screen.size[1]) is not None
         if option is None and (screen.over.handles or at_joint or self._is_at_pin(screen)):
             return None
         return (Action("next") if option is None else Action("option", option),)
@@ -609,66 +593,66 @@ class Mouse:
     def _pulled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Return the change of the held row's value, by how far the mouse has moved to the right."""
         if gesture.kind == "up":
-            self._drag = None
+            self.drag = None
             return (Action("drop"),)
-        before, self._steps = self._steps, round((self._at[0] - self._begun[0]) / (_PULL * screen.size[1]))
-        return (Action("pull", self._steps * _coarser()),) if self._steps != before else ()
+        before, self.steps = self.steps, round((self.at[0] - self.begun[0]) / (_PULL * screen.size[1]))
+        return (Action("pull", self.steps * _coarser()),) if self.steps != before else ()
 
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list under the mouse; None before the mouse was seen."""
-        if not self._seen or self._drag not in (None, "row") or screen.state.browsing:
+        if not self._seen or self.drag not in (None, "row") or screen.state.browsing:
             return None
         found = screen.option_at if screen.state.mode == "game" else screen.row_at
-        row = found(*self._at)
+        row = found(*self.at)
         return row if row is not None and row >= 0 else None
 
     def hovered(self, screen: Screen) -> str | None:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
-        if not self._seen or screen.state.browsing or self._drag in ("pan", "chart", "row"):
+        if not self._seen or screen.state.browsing or self.drag in ("pan", "chart", "row"):
             return None
-        on_a_list = self._drag is None and screen.row_at(*self._at) is not None
+        on_a_list = self.drag is None and screen.row_at(*self.at) is not None
         if on_a_list or screen.state.mode in ("pencil", "poses", "build", "numbers", "layers"):
             return None
         at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
-        return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
+        return screen.handle_at(*self.at, _REACH * screen.size[1]) or at_pin
 
     def over_scene(self, screen: Screen, frame: int) -> Pointed | None:
         """Return the part of the scene under the mouse; None where it rests while the scene runs."""
-        shown = self._seen and self._drag is None and screen.state.mode in ("play", "paused")
+        shown = self._seen and self.drag is None and screen.state.mode in ("play", "paused")
         rests = frame - self._moved_in > _TOLD and not screen.state.clock.paused
-        if not shown or rests or screen.button_at(*self._at) is not None:
+        if not shown or rests or screen.button_at(*self.at) is not None:
             return None
-        return screen.pointed(*self._at, _NEAR * screen.size[1])
+        return screen.pointed(*self.at, _NEAR * screen.size[1])
 
     def _is_at_pin(self, screen: Screen) -> bool:
         pin = screen.crank_pin()
-        return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * screen.size[1]
+        return max(abs(self.at[0] - pin[0]), abs(self.at[1] - pin[1])) <= _REACH * screen.size[1]
 
     def _on_the_shelf(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Choose the mechanism under the mouse; a click shows it, and a click elsewhere closes the shelf.
 
         A drag scrolls: on the pictures these follow the hand, beside them the scroll bar does.
         """
-        browsing, (x, y), drag = screen.state.browsing, self._at, self._drag
+        browsing, (x, y), drag = screen.state.browsing, self.at, self.drag
         assert browsing
         grid = screen.shelf_grid(browsing)
-        moves = self._far > _STILL * screen.size[1]
+        moves = self.far > _STILL * screen.size[1]
         match gesture.kind:
             case "wheel":
                 return (Action("scroll", -gesture.notches),)
             case "down":
                 on_track = grid.track is not None and grid.track.holds(x, y)
-                self._drag, self._steps = "scroll" if on_track else "shelf", grid.top
+                self.drag, self.steps = "scroll" if on_track else "shelf", grid.top
                 return self._scrolled_to(grid.led_to(y), grid.top) if on_track else ()
             case "up":
-                self._drag, place = None, grid.at(x, y)
+                self.drag, place = None, grid.at(x, y)
                 if drag != "shelf" or moves:
                     return ()
                 return (Action("shelf") if place is None else Action("put", place),)
         if drag == "scroll":
             return self._scrolled_to(grid.led_to(y), grid.top)
         if drag == "shelf":
-            to = self._steps + round((self._begun[1] - y) / grid.step)
+            to = self.steps + round((self.begun[1] - y) / grid.step)
             return self._scrolled_to(to, grid.top) if moves else ()
         place = grid.at(x, y)
         return () if place is None else (Action("point", place),)
@@ -680,85 +664,85 @@ class Mouse:
     def _of_the_pencil(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw, or drag what is under the pencil; None where the mouse acts as without a pencil."""
         reach = _REACH * screen.size[1]
-        if gesture.kind == "down" and screen.charted(*self._at) is None:
-            begun = screen.pencil_at(*self._at, reach)
-            self._cognate = screen.cognate_at(*self._at, _NEAR * screen.size[1])
-            self._drag = _PENCIL.get(begun.name)
+        if gesture.kind == "down" and screen.charted(*self.at) is None:
+            begun = screen.pencil_at(*self.at, reach)
+            self._cognate = screen.cognate_at(*self.at, _NEAR * screen.size[1])
+            self.drag = _PENCIL.get(begun.name)
             return (begun,)
-        if self._drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
+        if self.drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
             return None
-        if gesture.kind == "move" and self._drag == "dial":
-            return (Action("dial", screen.dialled(self._at[0])),)
+        if gesture.kind == "move" and self.drag == "dial":
+            return (Action("dial", screen.dialled(self.at[0])),)
         if gesture.kind == "move":
-            return (Action("pen_to" if self._drag == "pen" else "lead", screen.world(*self._at)),)
-        drag, self._drag = self._drag, None
+            return (Action("pen_to" if self.drag == "pen" else "lead", screen.world(*self.at)),)
+        drag, self.drag = self.drag, None
         if drag != "pen":
             return (Action("let_go"),)
-        if self._far > reach:
+        if self.far > reach:
             return (Action("pen_up"),)
         taken = () if self._cognate is None else (Action("cognate", self._cognate),)
         return (Action("pen_off"), *taken)
 
     def _of_the_poses(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Take an answer, or set down and drag frames and pins; None where the mouse acts as usual."""
-        if gesture.kind == "down" and screen.charted(*self._at) is None:
-            place = screen.answer_at(*self._at)
+        if gesture.kind == "down" and screen.charted(*self.at) is None:
+            place = screen.answer_at(*self.at)
             if place is not None:
-                self._drag = None
+                self.drag = None
                 return (Action("answer", place),)
-            if screen.on_dial(*self._at):
-                self._drag = "dial"
-                return (Action("dial", screen.dialled(self._at[0])),)
-            self._drag = "hand" if screen.posed_at(*self._at) else "pan"
-            self._draws = self._drag == "hand" and not screen.on_pose(*self._at)
-            return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
-        if self._drag not in ("hand", "dial") or gesture.kind not in ("move", "up"):
+            if screen.on_dial(*self.at):
+                self.drag = "dial"
+                return (Action("dial", screen.dialled(self.at[0])),)
+            self.drag = "hand" if screen.posed_at(*self.at) else "pan"
+            self._draws = self.drag == "hand" and not screen.on_pose(*self.at)
+            return (self._handed("hand_down", screen),) if self.drag == "hand" else ()
+        if self.drag not in ("hand", "dial") or gesture.kind not in ("move", "up"):
             return None
-        drag = self._drag
+        drag = self.drag
         if gesture.kind == "move":
             moved = self._handed("hand_to", screen) if drag == "hand" else None
-            return (moved or Action("dial", screen.dialled(self._at[0])),)
-        self._drag = None
+            return (moved or Action("dial", screen.dialled(self.at[0])),)
+        self.drag = None
         return (Action("hand_up"),) if drag == "hand" else ()
 
     def _of_the_tools(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Take a tool beside the list of dimensions; None where the mouse acts as usual."""
-        tool = screen.tool_at(*self._at) if gesture.kind == "down" and self._drag is None else None
+        tool = screen.tool_at(*self.at) if gesture.kind == "down" and self.drag is None else None
         if tool is None:
             return None
-        self._drag = "bar"
+        self.drag = "bar"
         return (Action(TOOLS[tool].action, TOOLS[tool].value),)
 
     def _of_the_numbers(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Act on the list of dimensions where the mouse is on it, else on the sheet."""
-        found = self._on_a_list(gesture, screen) if self._drag in (None, "row", "scroll") else None
+        found = self._on_a_list(gesture, screen) if self.drag in (None, "row", "scroll") else None
         return self._of_the_sheet(gesture, screen) if found is None else found
 
     def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw on the sheet, take a tool, turn the crank, or shift the paper; None without a sheet."""
-        if gesture.kind == "down" and screen.charted(*self._at) is None:
-            tool, row = screen.tool_at(*self._at), screen.sheet_row_at(*self._at)
+        if gesture.kind == "down" and screen.charted(*self.at) is None:
+            tool, row = screen.tool_at(*self.at), screen.sheet_row_at(*self.at)
             if row is not None:
-                self._drag = None
+                self.drag = None
                 return (row,)
-            begun = screen.sheet_at(*self._at) if tool is None else None
+            begun = screen.sheet_at(*self.at) if tool is None else None
             if tool is not None:
-                self._drag = None
+                self.drag = None
                 return (Action(TOOLS[tool].action, TOOLS[tool].value),)
             self._turns = begun == "crank"
-            self._drag = "paper" if begun == "paper" else "hand"
-            return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
-        if self._drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
+            self.drag = "paper" if begun == "paper" else "hand"
+            return (self._handed("hand_down", screen),) if self.drag == "hand" else ()
+        if self.drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
             return None
-        drag, stays = self._drag, self._far <= _STILL * screen.size[1]
+        drag, stays = self.drag, self.far <= _STILL * screen.size[1]
         if gesture.kind == "move":
             if self._turns and not stays:  # no click, which would choose the crank
-                self._drag = "crank"
+                self.drag = "crank"
                 return (Action("back"), *self._moved(screen))
             if drag == "hand":
                 return () if self._turns else (self._handed("hand_to", screen),)
             return () if stays else (Action("pan", gesture.by),)
-        self._drag = None
+        self.drag = None
         if drag == "hand":
             return (Action("hand_up"),)
         return (self._handed("hand_down", screen), Action("hand_up")) if stays else ()
@@ -767,52 +751,68 @@ class Mouse:
         """Return the hand's action on the sheet; its step is a tenth with Shift, and none with Alt."""
         mods = pygame.key.get_mods()
         part = 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0
-        return Action(name, screen.handed(*self._at, part))
+        return Action(name, screen.handed(*self.at, part))
 
     def over_sheet(self, screen: Screen) -> tuple[float, float] | None:
         """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
         modes = ("build", "numbers", "edit")
-        shown = self._seen and screen.state.mode in modes and self._drag in (None, "hand")
-        return self._at if shown else None
+        shown = self._seen and screen.state.mode in modes and self.drag in (None, "hand")
+        return self.at if shown else None
 
     def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Drag the slider's knob, if the button went down on the slider."""
-        self._drag = None if gesture.kind == "up" else "slider"
+        self.drag = None if gesture.kind == "up" else "slider"
         if gesture.kind == "up":
             return (Action("drop"),)
-        return (Action("slide", screen.slid(self._at[0])),) if gesture.kind in ("down", "move") else ()
+        return (Action("slide", screen.slid(self.at[0])),) if gesture.kind in ("down", "move") else ()
 
     def _of_the_layers(self, gesture: Gesture, _: Screen) -> tuple[Action, ...] | None:
         """Shift the parts, which have no crank pin to drag; None where the mouse acts as usual."""
         if gesture.kind == "down":
-            self._drag = "pan"
+            self.drag = "pan"
             return ()
         return None
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
         if self._is_at_pin(screen):
             return "crank"
-        return "pan" if screen.charted(*self._at) is None else "chart"
+        return "pan" if screen.charted(*self.at) is None else "chart"
 
     def _zoomed(self, notches: float, screen: Screen) -> tuple[Action, ...]:
         """Zoom about the mouse, or the linkage's nearest place; before it was seen, about the middle."""
-        x, y = screen.from_middle(*self._at) if self._seen else (0.0, 0.0)
+        x, y = screen.from_middle(*self.at) if self._seen else (0.0, 0.0)
         return (Action("zoom", (float(notches), x, y)),)
 
     def _moved(self, screen: Screen) -> tuple[Action, ...]:
-        if self._drag == "pace":
-            before = self._steps
-            self._steps = round((self._at[0] - self._begun[0]) / (_PULL * screen.size[1]))
-            return (Action("speed", self._steps - before),) if self._steps != before else ()
-        if self._drag == "joint":
+        if self.drag == "pace":
+            before = self.steps
+            self.steps = round((self.at[0] - self.begun[0]) / (_PULL * screen.size[1]))
+            return (Action("speed", self.steps - before),) if self.steps != before else ()
+        if self.drag == "joint":
             fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
-            return (Action("carry", (*screen.world(*self._at), fine)),)
-        phase = screen.charted(*self._at) if self._drag == "chart" else None
-        if self._drag == "crank":
-            phase = phase_towards(screen.state.displayed, screen.state.phase, screen.world(*self._at))
+            return (Action("carry", (*screen.world(*self.at), fine)),)
+        phase = screen.charted(*self.at) if self.drag == "chart" else None
+        if self.drag == "crank":
+            phase = phase_towards(screen.state.displayed, screen.state.phase, screen.world(*self.at))
         return () if phase is None else (Action("scrub", phase),)
 
 
 def _coarser() -> int:
     """Return the factor on a step: more than 1 with Shift."""
     return _COARSE if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
+
+
+class Outside(Protocol):
+    """What an action may have to know of the window: what is visible, and the current folder."""
+
+    state: State
+    screen: Screen
+
+    def resolved(self, action: Action) -> Iterator[Action]:
+        """Yield an action; one that depends on what is visible or in the folder is resolved first."""
+
+    def proposed_places(self) -> str:
+        """Return the current folder and places in it to write to, one a line."""
+
+    def refused_place(self, file: str) -> str:
+        """Return why nothing can be recorded into a file; else remember its folder, and return nothing."""

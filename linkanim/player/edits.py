@@ -13,7 +13,6 @@ from linkanim.mechanics.analysis import Info
 from linkanim.picture.overlay import Browsing, OwnFile
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
 from linkanim.player.commands import menu_of
-from linkanim.player.keys import MENU_IN
 from linkanim.player.state import (
     Edited,
     Editing,
@@ -234,7 +233,7 @@ def menu(state: State, group: str | None) -> State:
     """
     before = state.listing.others if state.listing else None
     state = replace(state, listing=None, browsing=None)
-    opened = menu_of(state, group) if state.mode in MENU_IN else None
+    opened = menu_of(state, group) if not state.keys.alone else None
     if opened is None or (before and before.title == opened.title):
         return state
     return replace(state, listing=Listing(0, others=opened), help=False)

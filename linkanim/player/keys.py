@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import field
 from functools import cache
-from typing import get_args
 
 from linkanim.build.tools import TOOLS, Tool
-from linkanim.frozen import NamedTuple
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.look import TOGGLES
-from linkanim.player.action import Action, Mode, Value
+from linkanim.player.action import Action, Value
 
 # The one table of gamepad buttons: which key each stands for; window, help and README read it.
 #
@@ -94,7 +94,7 @@ Table = Mapping[str, tuple[KeyRow, ...]]
 """Lines of the help by their subject."""
 
 
-def _on(keys: str, name: str, value: Value = None, *, held: bool = False) -> tuple[Bind, ...]:
+def on(keys: str, name: str, value: Value = None, *, held: bool = False) -> tuple[Bind, ...]:
     """Return the binds of keys to one action; with `held`, holding a key repeats it."""
     return tuple(Bind(key, Action(name, value), held) for key in keys.split())
 
@@ -112,75 +112,78 @@ def _looks(subject: str) -> tuple[KeyRow, ...]:
     return tuple(KeyRow(", ".join(one.keys).upper(), one.title, _of_look(name)) for name, one in found)
 
 
-def _both(less: str, more: str, name: str, by: int = 1, *, held: bool = True) -> tuple[Bind, ...]:
-    return _on(less, name, -by, held=held) + _on(more, name, by, held=held)
+def both(less: str, more: str, name: str, by: int = 1, *, held: bool = True) -> tuple[Bind, ...]:
+    """Return the binds of two keys: one does less by a number, the other more."""
+    return on(less, name, -by, held=held) + on(more, name, by, held=held)
 
 
-def _steps(name: str) -> tuple[Bind, ...]:
+def steps(name: str) -> tuple[Bind, ...]:
     """Return the binds of the left and right arrows; with Shift, ten times as far."""
-    return _both("left", "right", name) + _both("shift+left", "shift+right", name, 10)
+    return both("left", "right", name) + both("shift+left", "shift+right", name, 10)
 
 
-def _tabs(name: str) -> tuple[Bind, ...]:
-    return _both("shift+tab", "tab", name, held=False)
+def tabs(name: str) -> tuple[Bind, ...]:
+    """Return the binds of Tab and Shift+Tab."""
+    return both("shift+tab", "tab", name, held=False)
 
 
-def _digits(name: str) -> tuple[Bind, ...]:
+def digits(name: str) -> tuple[Bind, ...]:
     """Return the binds of the keys 1 to 9, which stand for places from 0."""
-    return tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", name, n))
+    return tuple(bind for n in range(9) for bind in on(f"{n + 1} kp{n + 1}", name, n))
 
 
-def _enter(name: str, erase: str = "") -> tuple[Bind, ...]:
+def enter(name: str, erase: str = "") -> tuple[Bind, ...]:
     """Return the bind of Enter, and that of the key that erases the last typed letter."""
-    return _on("return kp_enter", name) + (_on("backspace", erase, held=True) if erase else ())
+    return on("return kp_enter", name) + (on("backspace", erase, held=True) if erase else ())
 
 
-def _undo(undo: str, redo: str) -> tuple[Bind, ...]:
-    return _on("ctrl+z", undo, held=True) + _on("ctrl+y ctrl+shift+z", redo, held=True)
+def undo_keys(undo: str, redo: str) -> tuple[Bind, ...]:
+    """Return the binds of undo and redo."""
+    return on("ctrl+z", undo, held=True) + on("ctrl+y ctrl+shift+z", redo, held=True)
 
 
 def _zoom(keys: str, notches: float) -> tuple[Bind, ...]:
-    return _on(keys, "zoom", (notches, 0.0, 0.0), held=True)
+    return on(keys, "zoom", (notches, 0.0, 0.0), held=True)
 
 
-def _aims() -> tuple[Bind, ...]:
+def aims() -> tuple[Bind, ...]:
     """Return the binds of the arrows: they move the cursor by a grid line, with Shift by a fine step."""
     arrows = {"up": (0.0, 1.0), "down": (0.0, -1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0)}
-    lines = (bind for key, step in arrows.items() for bind in _on(key, "aim", step, held=True))
+    lines = (bind for key, step in arrows.items() for bind in on(key, "aim", step, held=True))
     fine = (
-        bind for key, step in arrows.items() for bind in _on(f"shift+{key}", "aim", (*step, 0.0), held=True)
+        bind for key, step in arrows.items() for bind in on(f"shift+{key}", "aim", (*step, 0.0), held=True)
     )
     return (*lines, *fine)
 
 
 _RECORD = (
-    *(_on("g", "record", "gif") + _on("m", "record", "mp4")),
-    *(_on("ctrl+g", "period", "gif") + _on("ctrl+m", "period", "mp4")),
-    *_on("ctrl+shift+g ctrl+shift+m", "taking"),
+    *(on("g", "record", "gif") + on("m", "record", "mp4")),
+    *(on("ctrl+g", "period", "gif") + on("ctrl+m", "period", "mp4")),
+    *on("ctrl+shift+g ctrl+shift+m", "taking"),
 )
-_BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
-_DIAL = _both(",", ".", "dial_on")
-_POSED = _on("return kp_enter", "enter")
-_KEPT = _on("ctrl+return ctrl+kp_enter", "keep")
-_STEPS = _both("shift+f7", "f7", "construct", held=False)
-_MAKE = _on("f6", "layers") + _on("shift+f6", "make")
-_PATH = _on("w", "pencil") + _on("shift+w", "own_trace")
+_BUILD = on("f2", "build") + on("shift+f2", "build_on")
+_DIAL = both(",", ".", "dial_on")
+_POSED = on("return kp_enter", "enter")
+_KEPT = on("ctrl+return ctrl+kp_enter", "keep")
+_STEPS = both("shift+f7", "f7", "construct", held=False)
+_MAKE = on("f6", "layers") + on("shift+f6", "make")
+_PATH = on("w", "pencil") + on("shift+w", "own_trace")
 
 KEYS: Table = {
     "play": (
-        KeyRow("Space", "play / pause", _on("space", "pause")),
-        KeyRow("← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
-        KeyRow("↑ ↓", "speed", _both("down", "up", "speed")),
-        KeyRow("digits, Enter", "pause, and go to that input angle", _enter("go", "erase_place")),
-        KeyRow("D", "direction", _on("d", "direction")),
-        KeyRow("R (twice: reset)", "back to the start", _on("r", "start")),
+        KeyRow("Space", "play / pause", on("space", "pause")),
+        KeyRow("← → (Shift: ×10)", "pause, and step the crank", steps("step")),
+        KeyRow("↑ ↓", "speed", both("down", "up", "speed")),
+        KeyRow("digits, Enter", "pause, and go to that input angle", enter("go", "erase_place")),
+        KeyRow("D", "direction", on("d", "direction")),
+        KeyRow("R (twice: reset)", "back to the start", on("r", "start")),
         KeyRow(
             "Tab, Shift+Tab",
             "next mechanism",
-            _tabs("mechanism"),
+            tabs("mechanism"),
         ),
-        KeyRow("O", "the shelf: all mechanisms", _on("o", "shelf")),
-        KeyRow("F3", "the title, and what can be played", _on("f3", "play", "title door=play")),
+        KeyRow("O", "the shelf: all mechanisms", on("o", "shelf")),
+        KeyRow("F3", "the title, and what can be played", on("f3", "play", "title door=play")),
         KeyRow("drag any joint", "lead the motion by hand; the chart's cursor does the same"),
     ),
     "look": (
@@ -188,21 +191,21 @@ KEYS: Table = {
         KeyRow(
             "+, −, drag; 0: fit",
             "zoom (wheel), pan",
-            _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0) + _on("0 kp0 home", "fit"),
+            _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0) + on("0 kp0 home", "fit"),
         ),
         KeyRow("L (Shift: lit / flat)", "light / dark", _of_look("theme") + _of_look("material")),
-        KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
-        KeyRow("F11", "full screen", _on("f11", "fullscreen")),
+        KeyRow("U", "sounds: dead centres and limits", on("u", "sounds")),
+        KeyRow("F11", "full screen", on("f11", "fullscreen")),
         KeyRow(
             "F10, right click",
             "all commands (Shift: a joint's)",
-            _on("f10", "menu") + _on("shift+f10", "menu", "things"),
+            on("f10", "menu") + on("shift+f10", "menu", "things"),
         ),
-        KeyRow("H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
+        KeyRow("H, F1, ?", "help", on("h f1 ? shift+/", "help")),
         KeyRow(
             "Esc, Q",
             "close, leave full screen, stop recording (Esc); quit",
-            _on("escape", "back") + _on("q", "quit"),
+            on("escape", "back") + on("q", "quit"),
         ),
     ),
     "measure": (
@@ -213,34 +216,32 @@ KEYS: Table = {
             _of_look("polygons") + _of_look("large_polygon"),
         ),
         KeyRow(
-            "C (Shift: off)", "chart: next quantity, off", _on("c", "chart", 1) + _on("shift+c", "plot", "")
+            "C (Shift: off)", "chart: next quantity, off", on("c", "chart", 1) + on("shift+c", "plot", "")
         ),
         KeyRow("X", "chart's axis: angle, time, phase", _of_look("over")),
-        KeyRow(
-            "K (Shift: more)", "the list of quantities", _on("k", "list") + _on("shift+k", "list", "below")
-        ),
+        KeyRow("K (Shift: more)", "the list of quantities", on("k", "list") + on("shift+k", "list", "below")),
         KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     ),
     "edit": (
-        KeyRow("E", "edit dimensions (H there: how)", _on("e", "edit")),
+        KeyRow("E", "edit dimensions (H there: how)", on("e", "edit")),
         KeyRow("F2, W (Shift: this one)", "build it, or draw its path", _BUILD + _PATH),
-        KeyRow("F4", "set down poses of a body", _on("f4", "poses")),
+        KeyRow("F4", "set down poses of a body", on("f4", "poses")),
         KeyRow("F7 (Shift: back)", "constructions, step by step", _STEPS),
         KeyRow(", .", "along the family that it is of", _DIAL),
-        KeyRow("B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")),
-        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("undo", "redo")),
+        KeyRow("B (Shift: ghost)", "assembly: the other closure", on("b", "closure") + _of_look("ghost")),
+        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("undo", "redo")),
     ),
     "keep": (
-        KeyRow("S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
+        KeyRow("S, F12 (Shift+S: SVG)", "screenshot", on("s f12", "screenshot") + on("shift+s", "svg")),
         KeyRow("G, M (Ctrl: a period)", "record GIF, MP4; Ctrl+Shift: how, where", _RECORD),
-        KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
+        KeyRow("Shift+G", "hand on: one page that moves", on("shift+g", "share")),
         KeyRow("F6 (Shift: write them)", "its parts in layers, to be made", _MAKE),
         KeyRow(
             "Ctrl+S, O",
             "save (Shift: save as); open",
-            _on("ctrl+s", "save") + _on("ctrl+shift+s", "save_as") + _on("ctrl+o", "files_here"),
+            on("ctrl+s", "save") + on("ctrl+shift+s", "save_as") + on("ctrl+o", "files_here"),
         ),
-        KeyRow("F5", "load the scene's file again", _on("f5", "reload")),
+        KeyRow("F5", "load the scene's file again", on("f5", "reload")),
     ),
 }
 """Every key of the window, by subject, in the order in which the help shows them."""
@@ -250,40 +251,40 @@ def _of_tool(tool: Tool) -> KeyRow:
     """Return the line of a tool; a tool on a digit also has Ctrl with it, for where digits are typed."""
     key = tool.key.lower()
     keys = f"{key} kp{key} ctrl+{key} ctrl+kp{key}" if key.isdigit() else key
-    return KeyRow(tool.key, tool.name, _on(keys, tool.action, tool.value))
+    return KeyRow(tool.key, tool.name, on(keys, tool.action, tool.value))
 
 
 _TAKEN = tuple(tool for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
 _WITH_CTRL = KeyRow(
     "Ctrl+1–9, F, Shift+T, D",
     "a tool, to add parts; a trace, the drive",
-    tuple(bind for one in _TAKEN for bind in _on(f"ctrl+{one.key.lower()}", one.action, one.value)),
+    tuple(bind for one in _TAKEN for bind in on(f"ctrl+{one.key.lower()}", one.action, one.value)),
 )
 """The tools where letters and digits are typed."""
 _SHEET_KEYS = (
-    KeyRow("Ctrl+← →", "choose", _both("ctrl+left", "ctrl+right", "further")),
-    KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
-    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
-    KeyRow("E", "the list of all dimensions; E again: without it", _on("e", "numbers")),
-    KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
-    KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", _on("f2", "build")),
-    KeyRow("Esc", "let go; leave the sheet", _on("escape", "back")),
+    KeyRow("Ctrl+← →", "choose", both("ctrl+left", "ctrl+right", "further")),
+    KeyRow("Del", "remove it and what depends on it", on("delete", "remove")),
+    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("unbuild", "rebuild")),
+    KeyRow("E", "the list of all dimensions; E again: without it", on("e", "numbers")),
+    KeyRow("Ctrl+N", "an empty sheet", on("ctrl+n", "sheet")),
+    KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", on("f2", "build")),
+    KeyRow("Esc", "let go; leave the sheet", on("escape", "back")),
 )
 """The meaning of keys on a sheet, with or without the list of dimensions."""
 _IN_A_MODE: Table = {
     "in E": (
-        KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
-        KeyRow("← → (Shift: ×10)", "nudge it", _steps("nudge")),
-        KeyRow("Tab, Shift+Tab", "the next row; the typed value waits", _tabs("pass_on")),
+        KeyRow("↑ ↓", "choose a dimension", both("up", "down", "choose")),
+        KeyRow("← → (Shift: ×10)", "nudge it", steps("nudge")),
+        KeyRow("Tab, Shift+Tab", "the next row; the typed value waits", tabs("pass_on")),
         KeyRow(
             "digits, Enter",
             "type a value, with or without a unit; take all typed values",
-            _enter("take", "erase"),
+            enter("take", "erase"),
         ),
-        KeyRow("F2", "the tools, for this linkage; E shows the list again", _on("f2", "build_on")),
+        KeyRow("F2", "the tools, for this linkage; E shows the list again", on("f2", "build_on")),
         _WITH_CTRL,
-        KeyRow("Ctrl+B", "let an input that swings return on the same closure", _on("ctrl+b", "returns")),
-        KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
+        KeyRow("Ctrl+B", "let an input that swings return on the same closure", on("ctrl+b", "returns")),
+        KeyRow("Ctrl+R", "reset: the file's dimensions again", on("ctrl+r", "reset")),
         KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
         KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
     ),
@@ -291,76 +292,62 @@ _IN_A_MODE: Table = {
         KeyRow(
             "↑ ↓",
             "choose a quantity",
-            _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
+            both("up", "down", "move") + both("pageup", "pagedown", "move", 10),
         ),
         KeyRow("type", "filter by name"),
-        KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
+        KeyRow("Enter, click", "chart it", enter("pick", "unsift")),
         KeyRow(
             "Ctrl+Enter, its box",
             "chart it below the others; off again",
-            _on("ctrl+return ctrl+kp_enter", "tick"),
+            on("ctrl+return ctrl+kp_enter", "tick"),
         ),
     ),
     "in O": (
         KeyRow(
             "arrows, mouse",
             "choose a mechanism",
-            _both("left", "right", "move") + _both("up", "down", "row"),
+            both("left", "right", "move") + both("up", "down", "row"),
         ),
         KeyRow("type", "filter by title or chapter"),
-        KeyRow("1–9", "another of the chapter that is on", _digits("select")),
-        KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
-        KeyRow("Enter, click", "put it on", _enter("put_chosen", "unsift")),
-    ),
-    "saving": (
-        KeyRow("type", "the name of the scene file"),
-        KeyRow("Enter", "write it; Esc does not", _enter("take_name", "erase_name") + _on("escape", "back")),
-    ),
-    "recording": (
-        KeyRow("↑ ↓, Tab", "choose a row", _both("up", "down", "take_row") + _tabs("take_row")),
-        KeyRow(
-            "← →, click",
-            "format, size, length; another place that is proposed",
-            _both("left", "right", "take_turn"),
-        ),
-        KeyRow("type", "the folder and name to write to; .gif or .mp4 chooses the format"),
-        KeyRow("Enter", "record; Esc does not", _enter("take_start", "take_untype") + _on("escape", "back")),
+        KeyRow("1–9", "another of the chapter that is on", digits("select")),
+        KeyRow("PgUp, PgDn, wheel", "scroll", both("pageup", "pagedown", "scroll", 2)),
+        KeyRow("Enter, click", "put it on", enter("put_chosen", "unsift")),
     ),
     "in W": (
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
-        KeyRow("1–9, click", "take another answer", _digits("answer")),
-        KeyRow(", .", "the dial: more exact, more compact", _both(",", ".", "dial_on")),
+        KeyRow("1–9, click", "take another answer", digits("answer")),
+        KeyRow(", .", "the dial: more exact, more compact", both(",", ".", "dial_on")),
         KeyRow(
             "F, click",
             "take a cognate: the faint linkage, which traces the same curve",
-            _on("f", "cognate", 0),
+            on("f", "cognate", 0),
         ),
-        KeyRow("Ctrl+Z", "undo the last stroke or drag", _on("ctrl+z", "take_back", held=True)),
-        KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
+        KeyRow("Ctrl+Z", "undo the last stroke or drag", on("ctrl+z", "take_back", held=True)),
+        KeyRow("Enter", "keep the linkage as the scene; Esc goes back", enter("keep")),
     ),
     "in F4": (
         KeyRow("press, drag", "set down a frame; drag it, or turn it by its axis"),
         KeyRow("drag a pivot, a joint", "move it; of four poses it slides along its curve"),
-        KeyRow("P", "set pins, or frames again", _on("p", "pinning")),
-        KeyRow("S", "linkages with a slider, or four-bars", _on("s", "sliding")),
-        KeyRow("B", "poles, Burmester's curves and points", _on("b", "theory")),
+        KeyRow("P", "set pins, or frames again", on("p", "pinning")),
+        KeyRow("S", "linkages with a slider, or four-bars", on("s", "sliding")),
+        KeyRow("B", "poles, Burmester's curves and points", on("b", "theory")),
         KeyRow(", .", "the dial: smaller links, a larger transmission angle", _DIAL),
-        KeyRow("1–9, click", "take another answer", _digits("answer")),
-        KeyRow("arrows (Shift: fine), Enter", "move a cursor; press and release there", _aims() + _POSED),
-        KeyRow("Tab, Del", "choose a frame or pin; remove it", _tabs("further") + _on("delete", "remove")),
-        KeyRow("Ctrl+Z", "undo the last change", _on("ctrl+z", "take_back", held=True)),
+        KeyRow("1–9, click", "take another answer", digits("answer")),
+        KeyRow("arrows (Shift: fine), Enter", "move a cursor; press and release there", aims() + _POSED),
+        KeyRow("Tab, Del", "choose a frame or pin; remove it", tabs("further") + on("delete", "remove")),
+        KeyRow("Ctrl+Z", "undo the last change", on("ctrl+z", "take_back", held=True)),
         KeyRow("Enter, Ctrl+Enter", "keep the linkage as the scene; Esc goes back", _KEPT),
     ),
     "in a game": (
-        KeyRow("1–9, click", "choose an answer or a door", _digits("option")),
-        KeyRow("Enter, Space", "go on", _on("return kp_enter space", "next")),
-        KeyRow("← → (Shift: ×10)", "turn the crank", _steps("turn")),
-        KeyRow("↑ ↓", "choose", _both("down", "up", "raise")),
+        KeyRow("1–9, click", "choose an answer or a door", digits("option")),
+        KeyRow("Enter, Space", "go on", on("return kp_enter space", "next")),
+        KeyRow("← → (Shift: ×10)", "turn the crank", steps("turn")),
+        KeyRow("↑ ↓", "choose", both("down", "up", "raise")),
         KeyRow("Esc", "out of it", ()),
     ),
     "in F6": (
-        KeyRow("↑ ↓, slider", "lift the layers off each other", _both("down", "up", "lift")),
-        KeyRow("Enter", "write the parts, as pages to print, into a folder", _on("return kp_enter", "make")),
+        KeyRow("↑ ↓, slider", "lift the layers off each other", both("down", "up", "lift")),
+        KeyRow("Enter", "write the parts, as pages to print, into a folder", on("return kp_enter", "make")),
         KeyRow("Esc, F6", "the linkage again"),
     ),
     "in F2": (
@@ -374,18 +361,18 @@ _IN_A_MODE: Table = {
         KeyRow(
             "digits, Enter",
             "type the value of what is chosen, if anything is; Ctrl+↑ ↓: its other rows, name and colour too",
-            _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
+            both("ctrl+up", "ctrl+down", "number") + on("backspace", "undigit", held=True),
         ),
         KeyRow(
-            "arrows (Shift: fine), Enter", "move a cursor; press and release there", _aims() + _enter("enter")
+            "arrows (Shift: fine), Enter", "move a cursor; press and release there", aims() + enter("enter")
         ),
         KeyRow(
             "Shift+Enter",
             "a point of the body at the cursor",
-            _on("shift+return shift+kp_enter insert", "enter", 2),
+            on("shift+return shift+kp_enter insert", "enter", 2),
         ),
-        KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", _tabs("tool_on")),
-        KeyRow("B", "the other closure", _on("b", "reassemble")),
+        KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", tabs("tool_on")),
+        KeyRow("B", "the other closure", on("b", "reassemble")),
         *_SHEET_KEYS,
     ),
     "in E, F2": (
@@ -393,52 +380,95 @@ _IN_A_MODE: Table = {
         KeyRow(
             "Ctrl+↑ ↓",
             "a row of what is chosen, to be typed: name and colour too",
-            _both("ctrl+up", "ctrl+down", "number"),
+            both("ctrl+up", "ctrl+down", "number"),
         ),
         *_SHEET_KEYS,
     ),
 }
 """The meaning of keys in a mode, by its subject; it takes precedence over their usual meaning."""
-_SUBJECTS: Mapping[Mode, str] = {
-    **{"edit": "in E", "list": "in K", "shelf": "in O"},
-    **{
-        "pencil": "in W",
-        "poses": "in F4",
-        "game": "in a game",
-        "build": "in F2",
-        "layers": "in F6",
-        "name": "saving",
-        "record": "recording",
-    },
-}
-MODES: Mapping[Mode, Table] = {
-    **{mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()},
-    "numbers": {
-        "in E": tuple(row for row in _IN_A_MODE["in E"] if row.keys != "F2"),
-        "in E, F2": _IN_A_MODE["in E, F2"],
-    },
-}
-"""The same by mode; on a sheet with the list of dimensions, the list's keys take precedence."""
+
+
+class BarEntry(NamedTuple):
+    """A command on the bar: its icon, the action of the table, its rank, whether it leads, where it is."""
+
+    icon: str
+    action: Action
+    rank: int
+    leads: bool = False
+    on_chart: bool = False
+
+
+SPEED = Action("speed", 1)
+BACK_BAR = BarEntry("back", Action("back"), 0)
+HOME_BAR = BarEntry("home", Action("play", "title door=play"), 2)
+MOVING_BAR = (
+    BarEntry("step back", Action("step", -1), 8, leads=True),
+    BarEntry("pause", Action("pause"), 0),
+    BarEntry("step on", Action("step", 1), 7),
+    BarEntry("speed", SPEED, 6),
+)
+LAST_BAR = (BarEntry("more", Action("menu"), -1, leads=True), BarEntry("help", Action("help"), 5))
+"""Commands that stand on several bars."""
+
 PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
 """What the buttons of a gamepad do."""
-_TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
-    "edit": ("type", frozenset({"space", "h", "e"})),
-    "numbers": ("type", frozenset({"space", "h", "e"})),
-    "list": ("sift", frozenset({"space", "h", "k"})),
-    "shelf": ("sift", frozenset({"space", "h", "o", *"123456789"})),
-    "play": ("type_place", frozenset()),
-    "paused": ("type_place", frozenset()),
-    "name": ("write_name", frozenset()),
-    "record": ("take_type", frozenset()),
-    "build": ("digits", frozenset()),
+
+
+class TypedKeys(NamedTuple):
+    """How printable keys are typed in a mode: the action, and the keys that keep their meaning until then.
+
+    Where only some letters begin, the others are typed once something is; `further` are all that can follow.
+    """
+
+    action: str
+    keep: frozenset[str] = frozenset()
+    begins: str = ""
+    further: str = ""
+
+
+@frozen(eq=False)
+class ModeKeys:
+    """The keys of a mode by subject, which take precedence over their usual meaning; how print is typed.
+
+    While a mode is on that is `alone`, of one line or dialog, no other keys mean anything.
+    """
+
+    name: str
+    table: Table = field(default_factory=dict)
+    typed: TypedKeys | None = None
+    alone: bool = False
+
+    @property
+    def binds(self) -> Iterator[Bind]:
+        """The binds of this mode only, without those of all modes."""
+        return _binds(self.table)
+
+
+def _in(name: str, subject: str, typed: TypedKeys | None = None) -> ModeKeys:
+    return ModeKeys(name, {subject: _IN_A_MODE[subject]}, typed)
+
+
+_ANGLE = TypedKeys("type_place", begins="0123456789", further="0123456789.")
+RUNNING = ModeKeys("play", typed=_ANGLE)
+"""The keys while a mechanism runs: digits are an input angle."""
+_LIST_OF_SHEET = {
+    "in E": tuple(row for row in _IN_A_MODE["in E"] if row.keys != "F2"),
+    "in E, F2": _IN_A_MODE["in E, F2"],
 }
-"""Modes in which printable keys are typed: the action, and the keys that keep their meaning until then."""
-
-
-_ALONE = ("name", "record")
-"""The modes of one line or dialog, in which no other keys mean anything."""
-_RUNS = ("play", "paused")
-"""The modes in which digits are an input angle."""
+_VALUE = TypedKeys("type", frozenset({"space", "h", "e"}))
+OF_MODES: tuple[ModeKeys, ...] = (
+    RUNNING,
+    ModeKeys("paused", typed=_ANGLE),
+    _in("edit", "in E", _VALUE),
+    ModeKeys("numbers", _LIST_OF_SHEET, _VALUE),
+    _in("list", "in K", TypedKeys("sift", frozenset({"space", "h", "k"}))),
+    _in("shelf", "in O", TypedKeys("sift", frozenset({"space", "h", "o", *"123456789"}))),
+    _in("pencil", "in W"),
+    _in("poses", "in F4"),
+    _in("game", "in a game"),
+    _in("build", "in F2", TypedKeys("digits", begins="123456789.-")),
+    _in("layers", "in F6"),
+)
 
 
 class Press(NamedTuple):
@@ -450,40 +480,38 @@ class Press(NamedTuple):
     ctrl: bool = False
 
 
-def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False, valued: bool = True) -> Bind | None:
+def bind_of(
+    press: Press, mode: ModeKeys = RUNNING, *, typing: bool = False, valued: bool = True
+) -> Bind | None:
     """Return what a key asks for; None where it is not bound.
 
     In an open list printable keys are typed, except for a few that keep their meaning until something is
     typed (`typing`). While a mechanism is shown digits are a place to go to. On a sheet they are typed where
     the chosen thing has a value (`valued`); else they are the numbers of tools.
     """
-    if _is_typed(press, mode, typing, valued=valued):
-        return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
-    tables = (MODES.get(mode, {}), {} if mode in _ALONE else KEYS)
+    if mode.typed and _is_typed(press, mode.typed, typing, valued=valued):
+        return Bind(press.key, Action(mode.typed.action, press.text), repeats=True)
+    tables = (mode.table, {} if mode.alone else KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
     # in a game any other letter means "next", as the title's "any key" promises
-    others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None
+    others = (
+        Bind(press.key, Action("next")) if mode.name == "game" and press.text and not press.ctrl else None
+    )
     return next(found, others)
 
 
-def _is_typed(press: Press, mode: Mode, typing: bool, *, valued: bool) -> bool:
-    if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
+def _is_typed(press: Press, typed: TypedKeys, typing: bool, *, valued: bool) -> bool:
+    if press.ctrl or not press.text or not press.text.isprintable():
         return False
-    if mode == "build":
-        return typing or (valued and press.text in "123456789.-")
-    if mode in _RUNS:
-        return press.text in "0123456789" or (typing and press.text == ".")
-    return typing or press.key not in _TYPED[mode][1]
+    if typed.begins:
+        begins = valued and press.text in typed.begins
+        return begins or (typing and (not typed.further or press.text in typed.further))
+    return typing or press.key not in typed.keep
 
 
-def binds_of(mode: Mode) -> Iterator[Bind]:
-    """Yield the binds of this mode only, without those of all modes."""
-    return _binds(MODES.get(mode, {}))
-
-
-def row_actions(mode: Mode, keys: str) -> tuple[Action, ...]:
+def row_actions(mode: ModeKeys, keys: str) -> tuple[Action, ...]:
     """Return the actions of a line of the help, each once; the line is found by its keys as written."""
-    rows = (row for table in (MODES.get(mode, {}), KEYS) for row in _rows(table) if row.keys == keys)
+    rows = (row for table in (mode.table, KEYS) for row in _rows(table) if row.keys == keys)
     return tuple(dict.fromkeys(bind.action for bind in next(rows, KeyRow("", "")).binds))
 
 
@@ -503,8 +531,6 @@ def _names(press: Press) -> tuple[str, ...]:
     return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
 
 
-MENU_IN: frozenset[Mode] = frozenset(get_args(Mode)) - {*_ALONE}
-"""The modes in which the list of commands can be opened, or is."""
 BESIDE_GAMES = frozenset(
     {
         *("play", "help", "theme", "material", "zoom", "fit", "fullscreen", "sounds"),
@@ -624,7 +650,7 @@ _APART: Mapping[Action, str] = {
     **{Action("option", n): f"answer or door {n + 1}" for n in range(9)},
 }
 """The names of commands that share a row of the table."""
-_IN_ONE_MODE: Mapping[tuple[Mode, Action], str] = {
+_IN_ONE_MODE: Mapping[tuple[str, Action], str] = {
     ("build", Action("build")): "done: leave the sheet and keep the linkage",
     ("pencil", Action("dial_on", -1)): "the dial: more exact",
     ("pencil", Action("dial_on", 1)): "the dial: more compact",
@@ -662,7 +688,7 @@ GROUPS: Mapping[str, CommandGroup] = {
 
 def group_key(name: str) -> str:
     """Return the keys of a group's commands, as they are written."""
-    keys = {action: key for _, key, action in commands("play")}
+    keys = {action: key for _, key, action in commands(RUNNING)}
     return ", ".join(keys[action] for action in GROUPS[name].actions if len(keys[action]) == 1)
 
 
@@ -673,20 +699,20 @@ _WRITTEN = {
 
 
 @cache
-def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
+def commands(mode: ModeKeys) -> tuple[tuple[str, str, Action], ...]:
     """Return all commands of a mode, each once: its words, its first key, its action.
 
     The key is empty where all keys of a command mean something else in the mode.
     """
     above: set[str] = set()
     found: dict[Action, tuple[str, str, Action]] = {}
-    usual = () if mode in _ALONE else tuple(_rows(KEYS))
-    for n, rows in enumerate((*MODES.get(mode, {}).values(), usual)):
+    usual = () if mode.alone else tuple(_rows(KEYS))
+    for n, rows in enumerate((*mode.table.values(), usual)):
         for one, bind in ((row, bind) for row in rows for bind in row.binds):
             if bind.action.name not in _NEEDS_KEYS:
                 below = bind.key in above or (n > 0 and _types(bind.key, mode))
                 key = "" if below else _as_written(bind.key)
-                apart = _IN_ONE_MODE.get((mode, bind.action), _APART.get(bind.action, one.words))
+                apart = _IN_ONE_MODE.get((mode.name, bind.action), _APART.get(bind.action, one.words))
                 words, known, _ = found.get(bind.action, (apart, "", bind.action))
                 found[bind.action] = (words, known or key, bind.action)
         above |= {bind.key for row in rows for bind in row.binds}
@@ -695,10 +721,10 @@ def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
     return tuple(one for one in found.values() if by_name[one[0]] == one[-1])
 
 
-def _types(key: str, mode: Mode) -> bool:
+def _types(key: str, mode: ModeKeys) -> bool:
     """Tell whether a key is typed in an open list, and so has no other meaning."""
-    letters = mode in _TYPED and mode not in ("build", *_RUNS)
-    return letters and len(key) == 1 and key not in _TYPED[mode][1]
+    typed = mode.typed
+    return typed is not None and not typed.begins and len(key) == 1 and key not in typed.keep
 
 
 def _as_written(key: str) -> str:
@@ -707,37 +733,17 @@ def _as_written(key: str) -> str:
     return "+".join([*map(str.capitalize, held), _WRITTEN.get(last, last.capitalize())])
 
 
-def key_names() -> tuple[str, ...]:
-    """Return every bound key's name once, without modifiers (a key alone may be '+')."""
-    names = (bind.key for table in (KEYS, _IN_A_MODE) for bind in _binds(table))
-    return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
-
-
-def help_groups(
-    mode: Mode = "play", *, pad: bool = False
-) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+def help_groups(mode: ModeKeys, *, pad: bool = False) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
     """Return (subject, its lines of keys and what they do) as the help overlay shows them.
 
     With a `pad` plugged in, its buttons are there, too.
     """
-    table = {**MODES.get(mode, KEYS), **(PAD_KEYS if pad else {})}
+    table = {**(mode.table or KEYS), **(PAD_KEYS if pad else {})}
     return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
 
 
-def _lines() -> Iterator[tuple[str, str]]:
-    """Yield all lines of the table, those of a mode under its subject."""
-    yield from ((row.keys, row.words) for rows in KEYS.values() for row in rows)
-    for table in (_IN_A_MODE, PAD_KEYS):
-        yield from ((f"{subject}: {row.keys}", row.words) for subject, rows in table.items() for row in rows)
-
-
 def as_text(*, indent: str = "  ") -> str:
-    """Return the table as plain text, for `--help`."""
-    lines = tuple(_lines())
-    width = max(len(keys) for keys, _ in lines)
-    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in lines)
-
-
-def as_markdown() -> str:
-    """Return the table in Markdown, for the manual."""
-    return "\n".join(["| key | does |", "|---|---|", *(f"| {keys} | {words} |" for keys, words in _lines())])
+    """Return the keys that always hold as plain text, for `--help`; each mode's own are in its help."""
+    lines = [*_rows(KEYS), KeyRow("H in a mode", "its own keys")]
+    width = max(len(row.keys) for row in lines)
+    return "\n".join(f"{indent}{row.keys:<{width}}  {row.words}" for row in lines)

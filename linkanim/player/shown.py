@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 from math import atan2, degrees, dist, hypot, isfinite, isnan
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,7 +47,6 @@ from linkanim.picture.overlay import (
 )
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.text import subscripted
-from linkanim.player import taking
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
 from linkanim.player.dial import place_of
@@ -67,15 +65,12 @@ from linkanim.player.state import (
     Grip,
     Layering,
     Listing,
-    Naming,
     PathSketch,
     PoseSketch,
     Sketch,
     State,
-    TakeDialog,
     driven_bar,
 )
-from linkanim.player.taking import PLACE
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.units import short, significant, stepped, three_digits, typeset
@@ -292,7 +287,6 @@ _FREE = {
     5: "nothing is free: Burmester's points (B)",
 }
 """The linkages that can be found, by the number of poses."""
-_TAKE_HINT = "↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes"
 _MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
 """The tool that is in hand beside the list of dimensions."""
 _MAKE_HINT = "Enter writes the parts"
@@ -326,7 +320,7 @@ def overlay(
         lists,
         panel=lists.panel and replace(lists.panel, pointed=row),
         quantities=lists.quantities and replace(lists.quantities, pointed=row),
-        toast=_naming(state.naming) if state.naming else state.toast.text if state.toast else None,
+        toast=lists.toast or (state.toast.text if state.toast else None),
         chip=_chip(state),
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
@@ -371,8 +365,8 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
         paused=_stands(state) and not (state.game or state.building),
         noted=True,
         recording=_recording(state),
-        help=help_groups(state.mode, pad=state.pad) if state.help else None,
-        panel=_listed(state, items),
+        help=help_groups(state.keys, pad=state.pad) if state.help else None,
+        panel=_panel(state, items) if state.editing.open and not state.listing else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=_shelf(state, state.browsing) if state.browsing else None,
         path=_path(state.drawing) if state.drawing else None,
@@ -383,8 +377,11 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
         construction=state.constructed,
         slider=_slider(state),
     )
-    shown = state.game.shown(state, found) if state.game else found
-    return replace(shown, game=None, spots=(), handles=()) if state.listing or state.taking else shown
+    found = state.game.shown(state, found) if state.game else found
+    found = replace(found, game=None, spots=(), handles=()) if state.listing else found
+    for mode in state.modes:
+        found = mode.shown(state, found)
+    return found
 
 
 def _stands_still(state: State) -> bool:
@@ -606,12 +603,6 @@ def _shelf(state: State, browsing: Browsing) -> Shelf:
     return Shelf(browsing, state.frame - browsing.since, state.look.theme, state.clock.paused, state.edited)
 
 
-def _naming(naming: Naming) -> str:
-    """Return the line in which a name is asked for."""
-    asked = f"Save as {naming.name}_.toml · Enter writes it · Esc does not"
-    return f"{naming.refusal}: {asked}" if naming.refusal else asked
-
-
 def _chip(state: State) -> Fading | None:
     return Fading(state.chip.text, min(state.chip.until - state.frame, 8)) if state.chip else None
 
@@ -660,24 +651,6 @@ def _recording(state: State) -> str | None:
         return None
     seconds = (state.frame - state.recording.since) // FRAMES_PER_SECOND
     return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
-
-
-def _listed(state: State, items: tuple[Dimension, ...]) -> Panel | None:
-    """Return the list of dimensions, or a recording's dialog, if it is open with nothing over it."""
-    if state.taking:
-        return _dialog(state, state.taking)
-    return _panel(state, items) if state.editing.open and not state.listing else None
-
-
-def _dialog(state: State, dialog: TakeDialog) -> Panel:
-    """Return the dialog of a recording."""
-    rows = tuple(
-        EditRow(one.label, one.value, n == dialog.row, draft=n == PLACE and dialog.typed != "")
-        for n, one in enumerate(taking.rows(state))
-    )
-    is_whole = dialog.place.startswith("~") or Path(dialog.place).is_absolute()
-    facts = () if is_whole or not dialog.folder else (f"in {dialog.folder}",)
-    return Panel(rows, "Record and save", facts, error=dialog.refusal or None, hint=_TAKE_HINT, counted=False)
 
 
 def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:

@@ -10,11 +10,12 @@ from __future__ import annotations
 import os
 import traceback
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
 from math import dist, fmod
-from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +33,9 @@ from linkanim.picture.look import Look
 from linkanim.picture.overlay import Browsing, Overlay, sifted
 from linkanim.picture.quantities import quantity
 from linkanim.picture.view import Box, eased
-from linkanim.player.action import Action, Mode
+from linkanim.player.action import Action, Value
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.keys import OF_MODES, BarEntry, ModeKeys
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_unit, passing
 from linkanim.scenes.form import Key
@@ -746,48 +748,66 @@ class TakeChoice(NamedTuple):
     whole: bool = False
 
 
-class TakeDialog(NamedTuple):
-    """The open dialog of a recording: the chosen row, and where the recording is to be written.
-
-    That place is the `typed` one, else number `at` of the proposed `places`. These are files without their
-    endings, relative to the current `folder`. `refusal` says why nothing can be written there.
-    """
-
-    row: int = 0
-    typed: str = ""
-    places: tuple[str, ...] = ()
-    at: int = 0
-    folder: str = ""
-    refusal: str = ""
-
-    @property
-    def place(self) -> str:
-        """Where the recording is to be written, without its ending; a folder alone gets the proposed name."""
-        proposed = next(iter(self.places[self.at :]), "")
-        if self.typed.endswith(("/", "\\")):
-            return self.typed + proposed.replace("\\", "/").rpartition("/")[2]
-        return self.typed or proposed
-
-
-class Naming(NamedTuple):
-    """The name of the scene file to be written: as proposed, or as typed, and why that was refused."""
-
-    proposal: str
-    typed: str = ""
-    refusal: str = ""
-
-    @property
-    def name(self) -> str:
-        """The name that Enter takes."""
-        return self.typed or self.proposal
-
-
 class Edited(NamedTuple):
     """An edited scene of a place of the shelf, and the state of its editing."""
 
     place: int
     scene: Scene
     editing: Editing
+
+
+class Rule(NamedTuple):
+    """One action: the test that its value must pass, and the state that it makes of another.
+
+    `taped` is False for actions outside the picture, which no tape keeps. `answer` says in a word or two what
+    changed, from the states before and after.
+    """
+
+    check: Callable[[object], bool]
+    handle: Callable[[State, Any], State]
+    taped: bool = True
+    answer: Callable[[State, State], str | None] | None = None
+
+
+Resolver = Callable[[Any, Value], Iterable[Action]]
+"""What an action asks of a window with these contents, by its value."""
+
+
+class Mode:
+    """What is open over the picture, in a module of its own: its keys, bar, actions, mouse and panel.
+
+    Modes are frozen values on the state's stack `modes`; equal ones look the same. Keys, mouse and Esc are
+    for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
+    depend on what is visible, or outside. One that `is_listed` takes the room of a list.
+    """
+
+    keys: ClassVar[ModeKeys]
+    bar: ClassVar[tuple[BarEntry, ...]]
+    actions: ClassVar[Mapping[str, Rule]]
+    meanings: ClassVar[Mapping[str, Resolver]] = MappingProxyType({})
+    is_listed: ClassVar[bool] = False
+
+    @property
+    def typing(self) -> bool:
+        """Whether something has been begun by typing."""
+        return False
+
+    def closed(self, state: State) -> State:
+        """Return the state after Esc or the back arrow: without the mode, unless it has to let go first."""
+        return state.without(type(self))
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the mode's own parts."""
+        del state
+        return over
+
+    def mouse(self, gesture: Any, mouse: Any, screen: Any) -> tuple[Action, ...] | None:
+        """Return the actions of a gesture; None where the mouse acts as without the mode."""
+        del gesture, mouse, screen
+        return None
+
+
+OneMode = TypeVar("OneMode", bound=Mode)
 
 
 class Game(Protocol):
@@ -830,13 +850,12 @@ class State:
 
     `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
     `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
-    travel, that is being typed while paused; `naming` is the name under which the scene will be saved, while
-    it is asked for. `game` is the running game, over the state `beneath`, and `games` reads a game from its
-    words. Recordings are made as `take` says; `taking` is the open dialog in which that is chosen. `held` is
-    the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether a gamepad
-    is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted scene.
-    `sounds` says whether the motion is heard, None where the user has not chosen. With `reduced_motion` the
-    picture changes at once, without fades, glides and moving views.
+    travel, that is being typed while paused. `modes` are open one on another. `game` is the running game,
+    over the state `beneath`, and `games` reads a game from its words. Recordings are made as `take` says.
+    `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether
+    a gamepad is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted
+    scene. `sounds` says whether the motion is heard, None where the user has not chosen. With
+    `reduced_motion` the picture changes at once, without fades, glides and moving views.
 
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
@@ -857,6 +876,7 @@ class State:
     shelf: tuple[Scene | str, ...] = ()
     place: int = 0
     frame: int = 0
+    modes: tuple[Mode, ...] = ()
     look: Look = field(default_factory=Look)
     help: bool = False
     editing: Editing = field(default_factory=Editing)
@@ -876,14 +896,12 @@ class State:
     turned: int | None = None
     arrived: int | None = None
     place_typed: str = ""
-    naming: Naming | None = None
     toast: Toast | None = None
     chip: Toast | None = None
     faded: int | None = None
     shot: int | None = None
     recording: Take | None = None
     take: TakeChoice = TakeChoice()
-    taking: TakeDialog | None = None
     from_title: bool = False
     kiosk: bool = False
     by_itself: bool = False
@@ -906,12 +924,36 @@ class State:
         return in_unit(self.shown, self.look.unit)
 
     @property
-    def mode(self) -> Mode:
-        """What the keys are for."""
-        if self.naming:
-            return "name"
-        if self.taking:
-            return "record"
+    def top(self) -> Mode | None:
+        """The mode that was opened last."""
+        return self.modes[-1] if self.modes else None
+
+    def of(self, kind: type[OneMode]) -> OneMode | None:
+        """Return the open mode of a kind."""
+        return next((one for one in reversed(self.modes) if isinstance(one, kind)), None)
+
+    def with_mode(self, mode: Mode) -> State:
+        """Return the state with a mode opened, or in the place of the open one of its kind."""
+        kinds = [type(one) for one in self.modes]
+        if type(mode) not in kinds:
+            return replace(self, modes=(*self.modes, mode))
+        at = kinds.index(type(mode))
+        return replace(self, modes=(*self.modes[:at], mode, *self.modes[at + 1 :]))
+
+    def without(self, kind: type[Mode]) -> State:
+        """Return the state without the modes of a kind."""
+        return replace(self, modes=tuple(one for one in self.modes if not isinstance(one, kind)))
+
+    @property
+    def keys(self) -> ModeKeys:
+        """The keys that have a meaning of their own now."""
+        return self.top.keys if self.top else next(one for one in OF_MODES if one.name == self.mode)
+
+    @property
+    def mode(self) -> str:
+        """What the keys are for, in a word."""
+        if self.top:
+            return self.top.keys.name
         if self.listing:
             return "list"
         if self.game:
@@ -984,21 +1026,21 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
-        if self.game and not (self.help or self.listing or self.taking):
+        if self.game and not (self.help or self.listing or self.modes):
             return self.game.covers
         return self.help or self.mode not in ("play", "paused") or self.constructed > 0
 
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        is_list = self.editing.open or self.listing is not None or self.taking is not None
+        is_list = self.editing.open or self.listing is not None or any(one.is_listed for one in self.modes)
         return is_list or self.game is not None
 
     @property
     def typing(self) -> bool:
         """Whether something has been begun in the open list."""
-        if self.naming or self.taking:
-            return True
+        if self.top:
+            return self.top.typing
         if self.listing:
             return bool(self.listing.sieve)
         sheet = self.building
@@ -1010,9 +1052,9 @@ class State:
 
     @property
     def valued(self) -> bool:
-        """Whether digits typed on the sheet are a value: of the chosen thing, or a photograph's distance."""
+        """Whether typed digits are a value: on a sheet, of the chosen thing or a photograph's distance."""
         sheet = self.building
-        return bool(sheet and (sheet.building.chosen or (sheet.tool == "photo" and sheet.span)))
+        return sheet is None or bool(sheet.building.chosen or (sheet.tool == "photo" and sheet.span))
 
     @property
     def phase(self) -> float:

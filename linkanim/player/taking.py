@@ -6,15 +6,44 @@ keep the picture or the scene.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from linkanim.frozen import NamedTuple
-from linkanim.player.action import Action
-from linkanim.player.keys import commands
-from linkanim.player.state import Format, State, Take, TakeChoice, TakeDialog, with_effect, with_toast
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.player import rules
+from linkanim.player.action import Action, Value
+from linkanim.player.keys import (
+    BACK_BAR,
+    RUNNING,
+    BarEntry,
+    KeyRow,
+    ModeKeys,
+    TypedKeys,
+    both,
+    commands,
+    enter,
+    on,
+    tabs,
+)
+from linkanim.player.state import (
+    Format,
+    Mode,
+    Resolver,
+    Rule,
+    State,
+    Take,
+    TakeChoice,
+    with_effect,
+    with_toast,
+)
 from linkanim.units import significant, typeset
+
+if TYPE_CHECKING:
+    from linkanim.player.devices import Gesture, Mouse, Outside
+    from linkanim.player.screen import Screen
 
 SIZES: tuple[tuple[int, int] | None, ...] = (None, (800, 450), (1280, 720), (1920, 1080), (3840, 2160))
 """The sizes of recordings to choose from; None for the window's shape."""
@@ -22,6 +51,7 @@ FORMATS: tuple[Format, ...] = ("gif", "mp4")
 RUNS = "a recording runs; G or M ends it"
 KEEPS = (Action("screenshot"), Action("svg"), Action("share"), Action("save"), Action("save_as"))
 """Other ways to keep the picture or the scene."""
+_HINT = "↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes"
 _LONGEST = 300
 PLACE = 3
 """The row of the place to write to."""
@@ -41,9 +71,9 @@ class TakeRow(NamedTuple):
 
 def rows(state: State) -> tuple[TakeRow, ...]:
     """Return the rows of the open dialog: the choices, the row that begins, and other ways to keep things."""
-    dialog, choice = state.taking or TakeDialog(), of_a_kind(state)
+    dialog, choice = state.of(TakeDialog) or TakeDialog(), of_a_kind(state)
     typed = f"{dialog.typed}_" if dialog.typed else f"{dialog.place}.{choice.format}"
-    keys = {action: (words, key) for words, key, action in commands("play")}
+    keys = {action: (words, key) for words, key, action in commands(RUNNING)}
     return (
         TakeRow("Format", choice.format.upper()),
         TakeRow("Size", _sized(choice.size)),
@@ -70,47 +100,48 @@ def _period(state: State) -> str:
 
 def target(state: State) -> str:
     """Return the file that the open dialog names; empty for a free name."""
-    place = state.taking.place if state.taking else ""
+    dialog = state.of(TakeDialog)
+    place = dialog.place if dialog else ""
     return f"{place}.{state.take.format}" if place else ""
 
 
 # Actions in the dialog.
 
 
-def dialog(state: State, _: None) -> State:
+def toggle(state: State, _: None) -> State:
     """Open the dialog, or close it."""
     if state.recording:
         return with_toast(state, RUNS)
-    opened = None if state.taking else TakeDialog(row=_START)
-    return replace(state, taking=opened, help=False, listing=None, browsing=None)
+    bare = replace(state, help=False, listing=None, browsing=None)
+    return bare.without(TakeDialog) if state.of(TakeDialog) else bare.with_mode(TakeDialog(row=_START))
 
 
-def places(state: State, lines: str) -> State:
+def propose(state: State, lines: str) -> State:
     """Keep the current folder and the proposed places, one a line."""
-    if state.taking is None:
-        return state
     folder, *found = lines.splitlines() or [""]
-    return replace(state, taking=state.taking._replace(folder=folder, places=tuple(found)))
+    dialog = state.of(TakeDialog)
+    return state.with_mode(replace(dialog, folder=folder, places=tuple(found))) if dialog else state
 
 
-def row(state: State, further: int) -> State:
+def choose(state: State, further: int) -> State:
     """Choose the row `further` rows down; the first row follows the last."""
-    return _on(state, lambda one: one._replace(row=(one.row + further) % len(rows(state))))
+    return _on(state, lambda one: replace(one, row=(one.row + further) % len(rows(state))))
 
 
 def turn(state: State, steps: int) -> State:
     """Take the chosen row's value that is `steps` further on."""
-    if state.taking is None:
+    dialog = state.of(TakeDialog)
+    if dialog is None:
         return state
-    choice, at = state.take, state.taking.row
+    choice, at = state.take, dialog.row
     if at == 0:
         choice = choice._replace(format=_after(FORMATS, choice.format, steps))
     elif at == 1:
         choice = choice._replace(size=_after(SIZES, choice.size, steps))
     elif at == 2:
         choice = choice._replace(whole=choice.whole ^ bool(steps % 2) and state.game is None)
-    elif at == PLACE and state.taking.places:
-        return _on(state, lambda one: one._replace(typed="", at=(one.at + steps) % len(one.places)))
+    elif at == PLACE and dialog.places:
+        return _on(state, lambda one: replace(one, typed="", at=(one.at + steps) % len(one.places)))
     return replace(_on(state, lambda one: one), take=choice)
 
 
@@ -120,16 +151,14 @@ def _after(steps: tuple[Step, ...], now: Step, by: int) -> Step:
 
 def write(state: State, text: str) -> State:
     """Add to the typed place; an ending that names a format chooses that format."""
-    if state.taking is None:
-        return state
-    return _typed(state, (state.taking.typed + text)[:_LONGEST])
+    dialog = state.of(TakeDialog)
+    return _typed(state, (dialog.typed + text)[:_LONGEST]) if dialog else state
 
 
 def erase(state: State, _: None) -> State:
     """Erase the last letter of the place, even of a proposed one."""
-    if state.taking is None:
-        return state
-    return _typed(state, state.taking.place[:-1])
+    dialog = state.of(TakeDialog)
+    return _typed(state, dialog.place[:-1]) if dialog else state
 
 
 def _typed(state: State, text: str) -> State:
@@ -137,17 +166,47 @@ def _typed(state: State, text: str) -> State:
     if form:
         state = replace(state, take=state.take._replace(format=form))
         text = text[: -len(form) - 1]
-    return _on(state, lambda one: one._replace(row=PLACE, typed=text))
+    return _on(state, lambda one: replace(one, row=PLACE, typed=text))
 
 
 def refused(state: State, reason: str) -> State:
     """Say why it cannot be written there."""
-    return replace(state, taking=state.taking and state.taking._replace(row=PLACE, refusal=reason))
+    dialog = state.of(TakeDialog)
+    return state.with_mode(replace(dialog, row=PLACE, refusal=reason)) if dialog else state
 
 
 def _on(state: State, work: Callable[[TakeDialog], TakeDialog]) -> State:
     """Return the state with its dialog changed, and nothing refused."""
-    return replace(state, taking=state.taking and work(state.taking._replace(refusal="")))
+    dialog = state.of(TakeDialog)
+    return state.with_mode(replace(work(dialog), refusal="")) if dialog else state
+
+
+# What keys ask that depends on the folder.
+
+
+def _opened(window: Outside, _: Value) -> Iterator[Action]:
+    """Yield the actions that open the dialog with free places, or close it."""
+    yield Action("taking")
+    if window.state.of(TakeDialog):
+        yield Action("take_places", window.proposed_places())
+
+
+def _started(window: Outside, _: Value) -> Iterator[Action]:
+    """Yield what Enter means in the dialog: a recording begins, or another command is done."""
+    dialog = window.state.of(TakeDialog)
+    if dialog is None:
+        return
+    does = rows(window.state)[dialog.row].action
+    if does and does.name != "take_start":
+        yield Action("back")
+        yield from window.resolved(does)
+        return
+    file = target(window.state)
+    if reason := window.refused_place(file):
+        yield Action("take_refused", reason)
+        return
+    yield Action("back")
+    yield Action("take_into", file)
 
 
 # Actions that record.
@@ -175,3 +234,84 @@ def period(state: State, form: Format) -> State:
     if state.recording:
         return with_toast(state, RUNS)
     return with_effect(state, "period", form)
+
+
+@frozen
+class TakeDialog(Mode):
+    """The open dialog of a recording: the chosen row, and where the recording is to be written.
+
+    That place is the `typed` one, else number `at` of the proposed `places`. These are files without their
+    endings, relative to the current `folder`. `refusal` says why nothing can be written there.
+    """
+
+    row: int = 0
+    typed: str = ""
+    places: tuple[str, ...] = ()
+    at: int = 0
+    folder: str = ""
+    refusal: str = ""
+
+    keys = ModeKeys(
+        "record",
+        {
+            "recording": (
+                KeyRow("↑ ↓, Tab", "choose a row", both("up", "down", "take_row") + tabs("take_row")),
+                KeyRow(
+                    "← →, click",
+                    "format, size, length; another place that is proposed",
+                    both("left", "right", "take_turn"),
+                ),
+                KeyRow("type", "the folder and name to write to; .gif or .mp4 chooses the format"),
+                KeyRow(
+                    "Enter", "record; Esc does not", enter("take_start", "take_untype") + on("escape", "back")
+                ),
+            )
+        },
+        TypedKeys("take_type"),
+        alone=True,
+    )
+    bar = (BACK_BAR, BarEntry("done", Action("take_start"), 1))
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "taking": Rule(rules.nothing, toggle),
+        "take_places": Rule(rules.text, propose),  # the current folder and places to write to, one a line
+        "take_row": Rule(rules.whole, choose),  # rows further down
+        "take_turn": Rule(rules.whole, turn),  # values further on
+        "take_type": Rule(rules.text, write),
+        "take_untype": Rule(rules.nothing, erase),
+        "take_refused": Rule(rules.text, refused),  # why it cannot be written there
+    }
+    meanings: ClassVar[Mapping[str, Resolver]] = {"taking": _opened, "take_start": _started}
+    typing, is_listed = True, True
+
+    @property
+    def place(self) -> str:
+        """Where the recording is to be written, without its ending; a folder alone gets the proposed name."""
+        proposed = next(iter(self.places[self.at :]), "")
+        if self.typed.endswith(("/", "\\")):
+            return self.typed + proposed.replace("\\", "/").rpartition("/")[2]
+        return self.typed or proposed
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the dialog, in the place of a game's panel."""
+        shown = tuple(
+            EditRow(one.label, one.value, n == self.row, draft=n == PLACE and self.typed != "")
+            for n, one in enumerate(rows(state))
+        )
+        is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
+        facts = () if is_whole or not self.folder else (f"in {self.folder}",)
+        panel = Panel(shown, "Record and save", facts, error=self.refusal or None, hint=_HINT, counted=False)
+        return replace(over, panel=panel, game=None, spots=(), handles=())
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""
+        number = screen.row_at(*mouse.at) if mouse.drag is None else None
+        if number is None or gesture.kind not in ("wheel", "down"):
+            return None
+        if number < 0:
+            return ()
+        does = rows(screen.state)[number].action
+        to = Action("take_row", number - self.row)
+        if gesture.kind == "wheel":
+            return () if does else (to, Action("take_turn", gesture.notches))
+        mouse.drag = "bar"
+        return (to, Action("take_start") if does else Action("take_turn", 1))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -24,7 +24,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
-from linkanim.player import files, screen, taking
+from linkanim.player import files, modes, screen, taking
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, leave, settled
 from linkanim.player.building import left, written
@@ -35,11 +35,12 @@ from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard,
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
 from linkanim.player.keys import bind_of
+from linkanim.player.naming import Naming
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, lasting, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import BuildSheet, Game, Naming, PoseSketch, State, Take, begin, recovered, report
+from linkanim.player.state import BuildSheet, Game, PoseSketch, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
 from linkanim.scenes.files import path_of
@@ -109,7 +110,12 @@ class Window:
         self._making: Making | None = None
         self._as_made: Sequence[str] = _USUALLY_MADE
         self.screen = Screen(state)
-        self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
+        self._keyboard, self._mouse, self._fingers, self._pads = (
+            Keyboard(modes.key_names()),
+            Mouse(),
+            Fingers(),
+            Pads(),
+        )
         self._speaker = Speaker()
         self._notes: list[str] = []
         self._photo: str | None = None
@@ -191,18 +197,18 @@ class Window:
         for event in events if drawing else latest(events):
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
-                yield from self._resolved(action)
+                yield from self.resolved(action)
         for action in self._pads.turned(self.state):
             yield from self._off_the_tape(action)
             yield action
         for action in self._mouse.held(self.screen) if self._good else ():
             yield from self._off_the_tape(action)
-            yield from self._resolved(action)
+            yield from self.resolved(action)
         for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
-            yield from self._resolved(action)
+            yield from self.resolved(action)
         yield from self._news()
 
-    def _resolved(self, action: Action) -> Iterator[Action]:
+    def resolved(self, action: Action) -> Iterator[Action]:
         """Yield an action; one that depends on what is visible or in the folder is resolved first."""
         meaning = MEANINGS.get(action.name)
         yield from meaning(self, action.value) if meaning else (action,)
@@ -222,7 +228,7 @@ class Window:
             row = row if isinstance(row, int) else listing.chosen
             asked = listing.asked(self.state.scene, row)
             yield from (Action("back"),) if listing.others or listing.adds else ()
-            yield from self._resolved(asked) if asked else ()
+            yield from self.resolved(asked) if asked else ()
 
     def _tick(self, row: Value) -> Iterator[Action]:
         """Yield the action that charts a row's quantity below the others; without a row, the chosen one's."""
@@ -254,31 +260,18 @@ class Window:
         if files:
             yield Action("files", _listed(files))
 
-    def _taking(self, _: Value) -> Iterator[Action]:
-        """Yield the actions that open the dialog of a recording with free places, or close it."""
-        yield Action("taking")
-        if self.state.taking:
-            found = files.places(self.state.scene.name, self._last_place)
-            yield Action("take_places", "\n".join([files.current_folder(), *found]))
+    def proposed_places(self) -> str:
+        """Return the current folder and places in it to write to, one a line."""
+        return "\n".join([files.current_folder(), *files.places(self.state.scene.name, self._last_place)])
 
-    def _take_start(self, _: Value) -> Iterator[Action]:
-        """Yield what Enter means in the dialog of a recording: it begins, or another command is done."""
-        if self.state.taking is None:
-            return
-        row = taking.rows(self.state)[self.state.taking.row].action
-        if row and row.name != "take_start":
-            yield Action("back")
-            yield from self._resolved(row)
-            return
-        file = taking.target(self.state)
+    def refused_place(self, file: str) -> str:
+        """Return why nothing can be recorded into a file; else remember its folder, and return nothing."""
         try:
             self._queue.refuse(file)
         except LinkanimError as error:
-            yield Action("take_refused", str(error))
-            return
+            return str(error)
         self._last_place = str(Path(file).parent)
-        yield Action("back")
-        yield Action("take_into", file)
+        return ""
 
     def _move(self, further: Value) -> Iterator[Action]:
         """Yield a step in the list or along the shelf, which scrolls with it."""
@@ -507,7 +500,7 @@ class Window:
             case "report":
                 self._report(str(effect.value))
             case "name":
-                self.state = replace(self.state, naming=Naming(self._saved.proposal(self.state.scene)))
+                self.state = self.state.with_mode(Naming(self._saved.proposal(self.state.scene)))
             case "save":
                 self._noted(self._saved.write(self.state.scene, Path(str(effect.value))))
             case "save_new":
@@ -536,7 +529,7 @@ class Window:
         try:
             self._noted(self._saved.add(self.state.scene, name))
         except LinkanimError as error:
-            self.state = replace(self.state, naming=Naming(name, refusal=str(error)))
+            self.state = self.state.with_mode(Naming(name, refusal=str(error)))
 
     def _noted(self, path: Path) -> None:
         """Record that the scene is in a file."""
@@ -659,12 +652,12 @@ class Window:
             # before the first picture there is nothing under the mouse
             return self._mouse.actions(event, self.screen) if self._good else ()
         if event.type in PAD_EVENTS:
-            return self._pads.actions(event, self.state.mode, self._now)
+            return self._pads.actions(event, self.state.keys, self._now)
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)
         on = self.state
-        bind = bind_of(press, on.mode, typing=on.typing, valued=on.valued) if press else None
+        bind = bind_of(press, on.keys, typing=on.typing, valued=on.valued) if press else None
         self._keyboard.hold(event, bind, self._now)
         return (bind.action,) if bind else ()
 
@@ -679,15 +672,14 @@ def _listed(files: Sequence[OwnFile]) -> str:
     return "\n".join(f"{one.name}\t{one.written}" for one in files)
 
 
-MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
+MEANINGS: Mapping[str, Callable[[Window, Value], Iterable[Action]]] = {
     "back": Window._back,
     "pick": Window._pick,
     "tick": Window._tick,
     "put": Window._put,
     "put_chosen": Window._put_chosen,
     "shelf": Window._shelf,
-    "taking": Window._taking,
-    "take_start": Window._take_start,
+    **modes.MEANINGS,
     "move": Window._move,
     "row": Window._row,
     "scroll": Window._scroll,

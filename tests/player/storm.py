@@ -29,7 +29,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.devices import code
 from linkanim.player.files import DraftFile, SceneFile
-from linkanim.player.keys import key_names
+from linkanim.player.modes import key_names
 from linkanim.player.state import State, begin
 from linkanim.player.window import Window
 from linkanim.scenes import load, names

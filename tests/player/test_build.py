@@ -29,6 +29,8 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.files import DraftFile
 from linkanim.player.keys import Press, bind_of
+from linkanim.player.modes import KEYS_OF
+from linkanim.player.naming import Naming
 from linkanim.player.shown import overlay
 from linkanim.player.state import TOAST_FRAMES, BuildSheet, Grip, begin
 from linkanim.player.tape import Tape, Taping
@@ -362,7 +364,7 @@ SCENE_LETTERS = {
 
 @pytest.mark.parametrize("letter", SCENE_LETTERS)
 def test_a_letter_asks_on_the_sheet_for_what_it_does_on_the_scene(letter: str) -> None:
-    on_sheet, on_scene = (bind_of(Press(letter, letter), mode) for mode in ("build", "play"))
+    on_sheet, on_scene = (bind_of(Press(letter, letter), KEYS_OF[mode]) for mode in ("build", "play"))
     assert on_sheet == on_scene
     assert on_sheet
     assert on_sheet.action.name == SCENE_LETTERS[letter]
@@ -680,8 +682,9 @@ def test_a_photograph_can_be_dropped_once_the_current_folder_is_gone(
     builder.four_bar()
     builder.press(pygame.K_s, CTRL)
     builder.press(pygame.K_RETURN)
-    assert builder.state.naming
-    assert builder.state.naming.refusal
+    naming = builder.state.of(Naming)
+    assert naming
+    assert naming.refusal
 
 
 @pytest.mark.parametrize("name", ["\udcff.png", "a\u202e.png", "n" * 300 + ".png"])

@@ -18,13 +18,16 @@ from linkanim.picture.layout import Docked, layout, with_side
 from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
 from linkanim.player import screen, taking
-from linkanim.player.action import Action, Mode
+from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
 from linkanim.player.framing import Framing
-from linkanim.player.keys import GROUPS, MODES, commands
+from linkanim.player.keys import GROUPS, commands
+from linkanim.player.modes import KEYS_OF
+from linkanim.player.naming import Naming
 from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import STIR_FRAMES, State, begin
+from linkanim.player.taking import TakeDialog
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
 
@@ -41,7 +44,7 @@ def rocker() -> State:
 
 
 # How each mode of the window is entered.
-ENTERED: dict[Mode, tuple[Action | str, ...]] = {
+ENTERED: dict[str, tuple[Action | str, ...]] = {
     "play": (),
     "paused": ("pause",),
     "edit": ("edit",),
@@ -57,7 +60,7 @@ ENTERED: dict[Mode, tuple[Action | str, ...]] = {
 in_every_mode = pytest.mark.parametrize("mode", ENTERED)
 
 
-def entered(mode: Mode) -> State:
+def entered(mode: str) -> State:
     games = replace(begin(load("crank-rocker")), games=game_of)
     state = after(games, *ENTERED[mode], "stir")
     assert state.mode == mode
@@ -87,11 +90,11 @@ def test_the_mouse_that_moves_is_no_key(rocker: State) -> None:
 
 
 @in_every_mode
-def test_every_button_is_a_command_of_the_table_of_its_mode(mode: Mode) -> None:
+def test_every_button_is_a_command_of_the_table_of_its_mode(mode: str) -> None:
     state = entered(mode)
     found = bar(state)
     assert found
-    known = {action for _, _, action in commands(mode)}
+    known = {action for _, _, action in commands(KEYS_OF[mode])}
     for number, button in enumerate(found.buttons):
         assert button.icon in COMMAND_ICONS or button.share is not None
         assert button.name
@@ -103,7 +106,7 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: Mode) -> None:
 
 
 def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
-    assert {*ENTERED, "name", "record"} == {*MODES, "play", "paused"}
+    assert {*ENTERED, "name", "record"} == {*KEYS_OF}
 
 
 def rows(state: State) -> list[str]:
@@ -235,7 +238,7 @@ SIZES = [(320, 180), (640, 360), (1280, 720), (1920, 1080), (3840, 2160), (400, 
 @in_every_mode
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_rest_is_left_out(
-    mode: Mode, size: tuple[int, int]
+    mode: str, size: tuple[int, int]
 ) -> None:
     found = bar(entered(mode))
     assert found
@@ -340,7 +343,7 @@ def test_a_double_click_on_a_button_leaves_all_as_it_was(
         player.drag((at.real, at.imag))
     now = player.state
     assert now.mode == before.mode
-    assert (now.help, now.listing, now.browsing, now.taking, now.building) == (False, None, None, None, None)
+    assert (now.help, now.listing, now.browsing, now.modes, now.building) == (False, None, None, (), None)
     assert (now.clock.level, now.clock.paused, now.look) == (
         before.clock.level,
         before.clock.paused,
@@ -391,7 +394,7 @@ GESTURES: dict[str, tuple[tuple[str, ...], Callable[[State], object]]] = {
     "the other closure": (("construction", "the other closure"), lambda state: state.place in state.edited),
     "polygons": (("construction", "velocity and acceleration"), lambda state: state.look.polygons),
     "build": (("build a linkage",), lambda state: state.building is not None),
-    "save under a name": (("record and save", "save the scene"), lambda state: state.naming is not None),
+    "save under a name": (("record and save", "save the scene"), lambda state: state.of(Naming) is not None),
     "record": (("record and save", "Record"), lambda state: state.recording is not None),
     "the title": (("all commands", "the title"), lambda state: state.game is not None),
 }
@@ -408,7 +411,7 @@ def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, ta
         player.press(pygame.K_SPACE)
         for name in names:
             listing = player.state.listing
-            if listing or player.state.taking:
+            if listing or player.state.of(TakeDialog):
                 labels = [one.label for one in taking.rows(player.state)]
                 words = [*listing.found(player.state.scene)] if listing else labels
                 found = (n for n, one in enumerate(words) if one.startswith(name))

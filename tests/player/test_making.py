@@ -30,6 +30,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import Making
 from linkanim.player.keys import commands
+from linkanim.player.modes import KEYS_OF
 from linkanim.player.shown import overlay
 from linkanim.player.state import LIFTED, State, begin
 from linkanim.player.tape import Taping
@@ -193,7 +194,7 @@ def test_a_tape_that_begins_amid_layers_has_them(shown: State) -> None:
 
 @pytest.mark.parametrize("mode", ["play", "paused", "pencil", "build", "layers"])
 def test_the_list_of_commands_makes_the_parts_in_every_mode(mode: str) -> None:
-    assert Action("make") in [action for *_, action in commands(mode)]
+    assert Action("make") in [action for *_, action in commands(KEYS_OF[mode])]
 
 
 @pytest.mark.parametrize("apart", [0.0, 0.3, 1.0])

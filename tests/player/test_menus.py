@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, get_args
+from typing import Any
 
 import pygame
 import pytest
@@ -12,10 +12,11 @@ from playing import NoSearch, Player
 
 from linkanim.play.games import game_of
 from linkanim.player import beside, screen
-from linkanim.player.action import Action, Mode
+from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_known
 from linkanim.player.commands import menu_of
-from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands
+from linkanim.player.keys import BESIDE_GAMES, GROUPS, commands
+from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import ListRow, State, begin
 from linkanim.player.window import MEANINGS
 from linkanim.scenes import load, names
@@ -28,7 +29,7 @@ def after(state: State, *actions: Action | str) -> State:
 
 
 # How each mode is entered, with the picture standing still but in the first.
-ENTERED: dict[Mode, Action | None] = {
+ENTERED: dict[str, Action | None] = {
     "play": Action("pause"),
     "paused": None,
     "edit": Action("edit"),
@@ -51,7 +52,7 @@ def player(here: object) -> Iterator[Player]:
         player.window.close()
 
 
-def enter(player: Player, mode: Mode) -> None:
+def enter(player: Player, mode: str) -> None:
     """Enter a mode without what is started outside for it."""
     action = ENTERED[mode]
     player.window.state = carried(player.state, action) if action else player.state
@@ -59,11 +60,11 @@ def enter(player: Player, mode: Mode) -> None:
     assert player.state.mode == mode
 
 
-def expected(mode: Mode) -> list[tuple[str, str, Action]]:
+def expected(mode: str) -> list[tuple[str, str, Action]]:
     """Return the commands that the list of a mode has."""
-    found = [one for one in commands(mode) if one[-1].name != "menu"]
+    found = [one for one in commands(KEYS_OF[mode]) if one[-1].name != "menu"]
     if mode == "game":
-        own = {bind.action for bind in binds_of("game")}
+        own = {bind.action for bind in KEYS_OF["game"].binds}
         found = [one for one in found if one[-1] in own or one[-1].name in BESIDE_GAMES]
     return found
 
@@ -83,11 +84,9 @@ def open_rows(state: State) -> list[ListRow]:
 
 @pytest.mark.thinned(3)
 @pytest.mark.parametrize("mode", ENTERED)
-def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(
-    player: Player, mode: Mode
-) -> None:
+def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(player: Player, mode: str) -> None:
     enter(player, mode)
-    listed = commands("paused") if mode == "list" else []
+    listed = commands(KEYS_OF["paused"]) if mode == "list" else []
     wanted = [one for one in listed if one[-1].name != "menu"] or expected(mode)
     if mode in ("play", "list", "edit"):
         wanted = [*wanted, *CONSTRUCTED]
@@ -103,8 +102,8 @@ def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(
 
 
 @pytest.mark.parametrize("mode", [*ENTERED, "shelf", "name"])
-def test_every_command_of_a_list_is_one_that_the_window_knows(mode: Mode) -> None:
-    for words, _, action in commands(mode):
+def test_every_command_of_a_list_is_one_that_the_window_knows(mode: str) -> None:
+    for words, _, action in commands(KEYS_OF[mode]):
         assert words
         assert is_known(action) or action.name in MEANINGS, action
 
@@ -361,14 +360,14 @@ def test_a_short_list_has_none(player: Player) -> None:
     )
 
 
-@pytest.mark.parametrize("mode", get_args(Mode))
-def test_no_two_commands_of_a_mode_have_one_name(mode: Mode) -> None:
-    names_ = [words for words, _, _ in commands(mode)]
+@pytest.mark.parametrize("mode", KEYS_OF)
+def test_no_two_commands_of_a_mode_have_one_name(mode: str) -> None:
+    names_ = [words for words, _, _ in commands(KEYS_OF[mode])]
     assert sorted({*names_}) == sorted(names_)
 
 
 def test_the_button_that_leaves_the_sheet_says_so() -> None:
-    named = {action: words for words, _, action in commands("build")}
+    named = {action: words for words, _, action in commands(KEYS_OF["build"])}
     assert named[Action("build")].startswith("done")
     assert Action("unbuild") in named
     assert Action("undo") not in named

@@ -14,7 +14,7 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.player import screen
-from linkanim.player.keys import PAD, help_groups
+from linkanim.player.keys import PAD, RUNNING, help_groups
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 
@@ -131,7 +131,7 @@ def test_a_d_pad_that_is_held_repeats_until_it_is_let_go(pads: Player) -> None:
 
 @pytest.mark.parametrize(("index", "number"), [(0, 7), (1, 6)], ids=["hat", "d-pad of buttons"])
 def test_help_names_the_buttons_once_one_is_plugged_in(pads: Player, index: int, number: int) -> None:
-    assert "gamepad" not in dict(help_groups())
+    assert "gamepad" not in dict(help_groups(RUNNING))
     pygame.event.post(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=index))
     pads.tick()
     plugged = pads.state
@@ -144,7 +144,7 @@ def test_help_names_the_buttons_once_one_is_plugged_in(pads: Player, index: int,
     pygame.event.post(pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=10 + index))
     pads.tick()
     assert not pads.state.pad
-    written = [words for words, _ in dict(help_groups(pad=True))["gamepad"]]
+    written = [words for words, _ in dict(help_groups(RUNNING, pad=True))["gamepad"]]
     assert written == [row.written for row in PAD]
 
 

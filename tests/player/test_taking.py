@@ -18,6 +18,7 @@ from linkanim.player import beside, screen, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.state import State, TakeChoice, begin
+from linkanim.player.taking import TakeDialog
 from linkanim.player.tape import Tape
 from linkanim.player.tape_file import read
 from linkanim.scenes import load
@@ -61,6 +62,12 @@ def player(here: Path, asked: Asked) -> Iterator[Player]:
         player.window.close()
 
 
+def dialog(player: Player) -> TakeDialog:
+    found = player.state.of(TakeDialog)
+    assert found
+    return found
+
+
 def opened(player: Player) -> None:
     player.press(pygame.K_g, CTRL | SHIFT)
     player.tick(12)
@@ -102,8 +109,8 @@ def test_each_choice_is_taken_by_keys_and_by_mouse(player: Player, case: str, by
             pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=1))
             player.tick()
     else:
-        assert player.state.taking
-        for _ in range(player.state.taking.row - row):
+        assert player.state.of(TakeDialog)
+        for _ in range(dialog(player).row - row):
             player.press(pygame.K_UP) if by == "keys" else player.press(pygame.K_TAB, SHIFT)
         player.press(pygame.K_RIGHT)
     assert is_taken(player)
@@ -195,15 +202,15 @@ def test_what_is_not_ours_stays(player: Player, asked: Asked, here: Path, case: 
     opened(player)
     player.type(place)
     player.press(pygame.K_RETURN)
-    assert player.state.taking
-    assert words in player.state.taking.refusal
+    assert player.state.of(TakeDialog)
+    assert words in dialog(player).refusal
     assert player.window.screen.over.panel
-    assert player.window.screen.over.panel.error == player.state.taking.refusal
+    assert player.window.screen.over.panel.error == dialog(player).refusal
     assert (asked.commands, player.state.recording) == ([], None)
     assert {path: path.read_bytes() for path in here.rglob("*") if path.is_file()} == before
     player.type("-2")
-    assert player.state.taking
-    assert player.state.taking.refusal == ""
+    assert player.state.of(TakeDialog)
+    assert dialog(player).refusal == ""
 
 
 def test_a_file_that_came_meanwhile_is_not_written_over(player: Player, here: Path, asked: Asked) -> None:
@@ -227,7 +234,7 @@ def test_a_name_on_its_way_is_not_taken_twice(player: Player, asked: Asked) -> N
         opened(player)
         player.type(typed)
         player.press(pygame.K_RETURN)
-        assert words in (player.state.taking.refusal if player.state.taking else "")
+        assert words in (dialog(player).refusal if player.state.of(TakeDialog) else "")
     assert len(asked.commands) == 1
 
 
@@ -237,7 +244,7 @@ def test_where_the_current_folder_is_gone_that_is_said(player: Player, here: Pat
     shutil.rmtree(here)
     player.press(pygame.K_RETURN)
     player.tick()
-    said = [player.state.toast, player.state.taking.refusal if player.state.taking else ""]
+    said = [player.state.toast, dialog(player).refusal if player.state.of(TakeDialog) else ""]
     assert any("cannot be made" in str(words) for words in said), said
     assert asked.commands == []
 
@@ -245,15 +252,15 @@ def test_where_the_current_folder_is_gone_that_is_said(player: Player, here: Pat
 def test_places_are_proposed_and_the_last_folder_is_the_first(player: Player, here: Path) -> None:
     (here / "films").mkdir()
     opened(player)
-    assert player.state.taking
-    assert player.state.taking.folder == str(here)
-    assert player.state.taking.places[:2] == ("recordings/crank-rocker-1", "crank-rocker-1")
+    assert player.state.of(TakeDialog)
+    assert dialog(player).folder == str(here)
+    assert dialog(player).places[:2] == ("recordings/crank-rocker-1", "crank-rocker-1")
     player.type("films/one")
     player.press(pygame.K_RETURN)
     player.type("g")
     opened(player)
-    assert player.state.taking
-    assert player.state.taking.places[0] == "films/crank-rocker-1"
+    assert player.state.of(TakeDialog)
+    assert dialog(player).places[0] == "films/crank-rocker-1"
 
 
 def test_a_folder_alone_has_the_proposed_name(player: Player, here: Path, asked: Asked) -> None:
@@ -320,11 +327,12 @@ def test_a_tape_shows_the_dialog_and_what_is_chosen() -> None:
     assert all(map(is_taped, actions))
     tape = Tape(start, 20, tuple(enumerate((*actions, Action("take_untype"), Action("back")), start=1)))
     states = [*tape.states()]
-    assert [bool(one.taking) for one in states[1:10]] == [True] * 7 + [False] * 2
-    assert states[4].taking
-    assert states[4].taking.place == "two"
-    assert states[6].taking
-    assert states[6].taking.refusal == "not there"
+    assert [bool(one.of(TakeDialog)) for one in states[1:10]] == [True] * 7 + [False] * 2
+    chosen, refused = (one.of(TakeDialog) for one in (states[4], states[6]))
+    assert chosen
+    assert chosen.place == "two"
+    assert refused
+    assert refused.refusal == "not there"
 
 
 def test_a_closed_dialog_takes_nothing() -> None:

@@ -17,7 +17,8 @@ from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.devices import code
-from linkanim.player.keys import BESIDE_GAMES, binds_of, commands
+from linkanim.player.keys import BESIDE_GAMES, commands
+from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.synthesis.answers import PathAnswer
@@ -102,8 +103,8 @@ def player(request: pytest.FixtureRequest, here: object, monkeypatch: pytest.Mon
 def wanted(state: State) -> list[Action]:
     """Return what the list of a mode has to have: all of its table, in a game what is told to that."""
     mode = "paused" if state.mode in ("list", "shelf") else state.mode
-    every = [action for _, _, action in commands(mode) if action.name != "menu"]
-    own = {bind.action for bind in binds_of("game")}
+    every = [action for _, _, action in commands(KEYS_OF[mode]) if action.name != "menu"]
+    own = {bind.action for bind in KEYS_OF["game"].binds}
     return [one for one in every if mode != "game" or one in own or one.name in BESIDE_GAMES]
 
 
@@ -196,7 +197,7 @@ def test_every_command_is_reached_by_the_keys_alone(player: Player) -> None:
 
 
 def test_the_keys_of_every_mode_ask_for_its_commands(player: Player) -> None:
-    for bind in binds_of(player.state.mode):
+    for bind in KEYS_OF[player.state.mode].binds:
         assert player.window._meant(press_of(bind.key)) == (bind.action,), bind.key
 
 

@@ -22,6 +22,7 @@ from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
+from linkanim.player.naming import Naming
 from linkanim.player.state import CHIP_FRAMES, FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
@@ -489,7 +490,7 @@ def test_ctrl_shift_s_writes_another_file_and_a_name_that_is_taken_is_refused(
     player.tick()
     assert "is there already" in str(player.window.screen.over.toast)
     player.press(*bare(pygame.K_ESCAPE))
-    assert player.state.naming is None
+    assert player.state.of(Naming) is None
     assert (here / "crank-rocker.toml").read_text() == "not ours"
 
 
