@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import arrows, box, directions, disc, segments, stroke
-from linkanim.picture.theme import DARK, GREEN, ORANGE, SKY, Theme
+from linkanim.picture.theme import DARK, GREEN, ORANGE, SKY, Theme, mixed
 from linkanim.picture.tools import ICONS, Icon
 
 _THIN = 1.7
@@ -203,6 +203,29 @@ def _again(gauge: Gauge, theme: Theme) -> list[Layer]:
     return [_line(gauge, theme.ink, arc), _filled(gauge, theme.ink, [0.8 - 6j, 8 - 7.4j, 6.6 - 0.2j])]
 
 
+def _closure(gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return both closures of a dyad on one ground, one of them faint."""
+    up, down = [-8 + 0j, 1 - 7.5j, 8 + 0j], [-8 + 0j, 1 + 7.5j, 8 + 0j]
+    joints = [gauge.line * at + disc(1.8 * gauge.line) for at in (-8, 1 - 7.5j, 8)]
+    return [
+        _line(gauge, mixed(theme.ink, theme.panel, 0.6), down),
+        _line(gauge, theme.velocity, up),
+        Layer(theme.ink, joints),
+    ]
+
+
+def _theme(gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return a disc, half of it dark."""
+    ring = [7.6 * gauge.line * disc(1.0), 6.0 * gauge.line * disc(1.0)[::-1]]
+    return [Layer(theme.ink, ring), _filled(gauge, theme.ink, _arc(0j, 6.4, 0.25, 0.75))]
+
+
+def _full_screen(gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the four corners of a screen."""
+    corners = [complex(8 * x, 7 * y) for x in (-1, 1) for y in (-1, 1)]
+    return [_line(gauge, theme.ink, *([at - 0.55 * at.real, at, at - 0.6j * at.imag] for at in corners))]
+
+
 def _close(gauge: Gauge, theme: Theme) -> list[Layer]:
     return [_line(gauge, theme.ink, [-6 - 6j, 6 + 6j], [-6 + 6j, 6 - 6j])]
 
@@ -259,6 +282,9 @@ COMMAND_ICONS: Mapping[str, Icon] = {
     "done": _done,
     "again": _again,
     "close": _close,
+    "closure": _closure,
+    "theme": _theme,
+    "full screen": _full_screen,
     "undo": ICONS["undo"],
     "redo": ICONS["redo"],
 }

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 
-from linkanim.picture.overlay import Button, CommandBar
+from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar
 from linkanim.player.action import Action
 from linkanim.player.clock import FASTEST, SLOWEST
 from linkanim.player.keys import (
@@ -25,7 +25,7 @@ from linkanim.player.keys import (
     group_key,
     row_actions,
 )
-from linkanim.player.state import BLANK, STIR_FRAMES, Entries, ListRow, State
+from linkanim.player.state import BLANK, STIR_FRAMES, Entries, Game, ListRow, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
 
@@ -42,6 +42,7 @@ _SCENE = (
     BarEntry("arrows", Action("menu", "arrows"), 9),
     BarEntry("chart", Action("list"), 4),
     BarEntry("construction", Action("menu", "construction"), 14),
+    BarEntry("closure", Action("closure"), 16),
     BarEntry("edit", Action("edit"), 3, leads=True),
     BarEntry("build", Action("build"), 12),
     BarEntry("pencil", Action("pencil"), 13),
@@ -242,14 +243,36 @@ def line_asks(mode: ModeKeys, keys: str) -> Action | None:
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
     found = [row for action, row in usual.items() if action.name != "menu"] + [*_constructions(state)]
     if state.game:
-        own = {bind.action for bind in state.keys.binds}
-        found = [row for row in found if row.action in own or row.action.name in BESIDE_GAMES]
+        found = [
+            *_of_game(state, state.game, usual),
+            *(row for row in found if row.action.name in BESIDE_GAMES),
+        ]
     if group is None:
         return Entries("Commands", tuple(found))
     title, members = GROUPS[group]
     rows = (row for row in found if row.action in members)
     named = _constructions(state) if group == "construction" else ()
     return Entries(title, (*sorted(rows, key=lambda row: members.index(row.action)), *named))
+
+
+def _of_game(state: State, game: Game, usual: Mapping[Action, ListRow]) -> Iterator[ListRow]:
+    """Yield what can be done in a game now: its answers or doors by their words, then other keys of use."""
+    shown = game.shown(state, NOTHING_OVER)
+    for n, choice in enumerate(shown.game.choices if shown.game else ()):
+        yield ListRow(choice.text or f"answer {n + 1}", choice.key, Action("option", n))
+    for n, spot in enumerate(shown.spots):
+        yield ListRow(f"the place {spot.key} on the picture", spot.key, Action("option", n))
+    for action in (*dict.fromkeys(bind.action for bind in state.keys.binds), Action("back")):
+        if action.name != "option" and game.carried(state, action) is not state:
+            kind = game.words.partition(" ")[0]
+            yield usual[action]._replace(words=_IN_ONE_GAME.get((kind, action), usual[action].words))
+
+
+_IN_ONE_GAME: Mapping[tuple[str, Action], str] = {
+    ("menu", Action("turn", -1)): "a level down",
+    ("menu", Action("turn", 1)): "a level up",
+}
+"""Other names of commands in particular games."""
 
 
 def _constructions(state: State) -> Iterator[ListRow]:

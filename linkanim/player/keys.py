@@ -407,7 +407,12 @@ MOVING_BAR = (
     BarEntry("step on", Action("step", 1), 7),
     BarEntry("speed", SPEED, 6),
 )
-LAST_BAR = (BarEntry("more", Action("menu"), -1, leads=True), BarEntry("help", Action("help"), 5))
+LAST_BAR = (
+    BarEntry("full screen", Action("fullscreen"), 17, leads=True),
+    BarEntry("theme", Action("theme"), 18),
+    BarEntry("more", Action("menu"), -1),
+    BarEntry("help", Action("help"), 5),
+)
 """Commands that stand on several bars."""
 
 PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
@@ -651,6 +656,7 @@ _APART: Mapping[Action, str] = {
 }
 """The names of commands that share a row of the table."""
 _IN_ONE_MODE: Mapping[tuple[str, Action], str] = {
+    ("game", Action("back")): "out of it",
     ("build", Action("build")): "done: leave the sheet and keep the linkage",
     ("pencil", Action("dial_on", -1)): "the dial: more exact",
     ("pencil", Action("dial_on", 1)): "the dial: more compact",

@@ -128,13 +128,16 @@ DONE: dict[str, Callable[[State], object]] = {
     "draw a path to follow": lambda state: state.sketch is not None,
     "arrows": lambda state: rows(state) == ["velocities", "accelerations"],
     "all commands": lambda state: len(rows(state)) > 40,
+    "the other closure": lambda state: state.scene.linkage != load("crank-rocker").linkage,
+    "light / dark": lambda state: state.look.theme == "dark",
+    "full screen": lambda state: Action("fullscreen") in state.effects or screen.is_full(),
     "help": lambda state: state.help,
 }
 
 
 @pytest.mark.parametrize("name", DONE)
 def test_a_button_does_what_its_key_does(player: Player, name: str) -> None:
-    with_room = (900, 500)
+    with_room = (1280, 720)
     pygame.display.set_mode(with_room, pygame.RESIZABLE)
     player.press(pygame.K_SPACE)
     click(player, name)

@@ -350,9 +350,9 @@ def test_a_linkage_for_a_stroke_runs_at_once_whatever_was_paused(player: Player)
     player.type("w")
     player.drag(*loop(player))
     player.tick()
-    assert not player.state.clock.paused
+    paused = [player.state.clock.paused]
     player.press(pygame.K_ESCAPE)
-    assert player.state.clock.paused  # the scene from before is as it was
+    assert [*paused, player.state.clock.paused] == [False, True]  # the scene from before is as it was
 
 
 SHAPES = [(1280, 720), (640, 360), (480, 640)]

@@ -16,8 +16,9 @@ from linkanim.play.games import game_of
 from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.commands import menu_of
 from linkanim.player.devices import code
-from linkanim.player.keys import BESIDE_GAMES, commands
+from linkanim.player.keys import commands
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
@@ -101,11 +102,13 @@ def player(request: pytest.FixtureRequest, here: object, monkeypatch: pytest.Mon
 
 
 def wanted(state: State) -> list[Action]:
-    """Return what the list of a mode has to have: all of its table, in a game what is told to that."""
+    """Return what the list of a mode has to have: all of its table, in a game what that has now."""
+    if state.game:
+        every = menu_of(state, None)
+        assert every
+        return [row.action for row in every.entries]
     mode = "paused" if state.mode in ("list", "shelf") else state.mode
-    every = [action for _, _, action in commands(KEYS_OF[mode]) if action.name != "menu"]
-    own = {bind.action for bind in KEYS_OF["game"].binds}
-    return [one for one in every if mode != "game" or one in own or one.name in BESIDE_GAMES]
+    return [action for _, _, action in commands(KEYS_OF[mode]) if action.name != "menu"]
 
 
 def open_list(player: Player) -> None:

@@ -117,7 +117,7 @@ def main(target: str) -> None:
         fits = front(curve)
         shown = fits[knee([fit.figures for fit in fits])]
         cell = sheet.subsurface((n % columns * wide, n // columns * high, wide, high))
-        off, size, _, angle = shown.figures
+        off, size, _, angle, _ = shown.figures
         words = f"{name}: {100 * off:.2f} %, x{size:.2f}, {math.degrees(angle):.0f} deg"
         cell.blit(font.render(words, True, "black"), (8, 6))
         _linkage(cell, curve, shown)
