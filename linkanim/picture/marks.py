@@ -119,6 +119,8 @@ def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
 
 # The lane of a ram: two lines on paper that scrolls across its guide.
 
+BEYOND = 0.06
+"""How far the guide is drawn beyond the dead centres, in strokes."""
 _DEEPEST = 0.62
 """How far the paper extends ahead of the ram at the most, in heights of the stage."""
 
@@ -127,10 +129,17 @@ def lane(setting: DrawSetting, shown: Lane) -> Group:
     """Return the paper between the lines, the lines, and the guide for comparing the ram with them."""
     _, view, gauge, theme = setting.known
     back, forward = view.place(shown.back), view.place(shown.forward)
-    stage, across, middle = setting.layout.stage, 1j * unit(forward - back), (back + forward) / 2
-    ahead = max((across, -across), key=lambda way: stage.ahead(middle, way))  # where there is more room
-    depth = min(stage.ahead(middle, ahead), _DEEPEST * stage.height)
+    across, beside = 1j * unit(forward - back), max(shown.half_width, BEYOND) * (forward - back)
+    stage, ends = setting.layout.stage.inset(1.8 * gauge.line), (back - beside, forward + beside)
+
+    def room(way: complex) -> float:
+        return min(stage.ahead(end, way) for end in ends)
+
+    ahead = max((across, -across), key=room)
+    depth = min(room(ahead), _DEEPEST * stage.height)
     way, share = np.array(shown.middle).T
+    seen = way >= -room(-ahead) / max(depth, 1.0)  # what has left the stage is gone
+    way, share = way[seen], share[seen]
     foot: Loop = back + ahead * depth * way + (forward - back) * share
     half = (forward - back) * shown.half_width
     edges = foot - half, foot + half
@@ -138,6 +147,6 @@ def lane(setting: DrawSetting, shown: Lane) -> Group:
     shade = theme.chosen if shown.well else mixed(ink, theme.background, 0.75)
     paper = Layer(shade, [np.concatenate((edges[0], edges[1][::-1]))])
     lines = [loop for edge in edges for loop in stroke(edge, 1.8 * gauge.line)]
-    beyond = 0.06 * (forward - back)
+    beyond = BEYOND * (forward - back)
     guide = segments(back - beyond, forward + beyond, gauge.line)
     return Group("lane", [paper, Layer(theme.ground, guide), Layer(ink, lines)])

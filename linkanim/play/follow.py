@@ -23,6 +23,7 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.measures import output_slider
 from linkanim.picture.look import Look
+from linkanim.picture.marks import BEYOND
 from linkanim.picture.overlay import Choice, GamePanel, Lane, Overlay, ScoreBar
 from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
@@ -47,6 +48,8 @@ _HALF_TURN = 150
 _SLOWEST, _FASTEST = 260, 130
 """The most and the least paper, in mm, for one stroke at a steady speed of the ram."""
 _RESTS = (40, 90)
+_ROUND = 25
+"""How far before and behind a corner of the track is made round, in mm."""
 _SAMPLES = 1_440
 
 
@@ -118,9 +121,11 @@ def _places(cycle: NDArray[np.float64], scene: Scene, random: Random) -> tuple[f
     """Return the places of a whole track, from where the ram is at phase 0."""
     places = [float(cycle[0])] * _LEAD
     places += _turning(cycle, scene, 0.0, 2)
-    while len(places) <= LENGTH:
+    while len(places) <= LENGTH + 2 * _ROUND:
         places += _stretch(places[-1], cycle, scene, random)
-    return tuple(min(max(place, 0.0), 1.0) for place in places[: LENGTH + 1])
+    weights = np.hanning(2 * _ROUND + 3)[1:-1]
+    rounded = np.convolve([places[0]] * _ROUND + places, weights / weights.sum(), "valid")
+    return tuple(np.clip(rounded[: LENGTH + 1], 0.0, 1.0).tolist())
 
 
 def _stretch(place: float, cycle: NDArray[np.float64], scene: Scene, random: Random) -> Iterator[float]:
@@ -165,7 +170,16 @@ _AHEAD, _BEHIND, _EVERY = 200, 40, 4
 """How much paper is visible ahead of the ram and behind it, and the step of its points, in mm."""
 _WIDTHS = ("wide, slow", "narrower, faster", "narrow, fast")
 _FIRST = "slider-crank"
-_HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's stick"
+CONTROLS = {
+    "drag the crank pin": "turn it; the first turn starts the count",
+    "← →": "slower, faster (Shift: three steps)",
+    "Space": "stop",
+    "↑ ↓": "another track, before and after a run",
+    "1–3": "wide, narrower, narrow, likewise",
+    "a gamepad's stick": "turn the crank to its angle",
+}
+"""What a hand can do, as the manual has it."""
+_HINT = f"drag the crank pin   ← → {CONTROLS['← →'].partition(' (')[0]}   Space stops   a gamepad's stick"
 
 
 @frozen
@@ -210,7 +224,11 @@ class FollowRun:
     def entered(self, state: State) -> State:
         """Return the state with the scene at rest at the run's phase."""
         look = Look(hud=False, trace=False, theme=state.look.theme, unit=state.look.unit)
-        return with_scene(replace(state, look=look), load(self.scene), self.phase, paused=True)
+        state = with_scene(replace(state, look=look), load(self.scene), self.phase, paused=True)
+        lane = self._lane(state)
+        back, forward = complex(*lane.back), complex(*lane.forward)
+        beyond = max(lane.half_width, BEYOND) * (forward - back)
+        return replace(state, also=(back - beyond, forward + beyond))
 
     def carried(self, state: State, action: Action) -> State:
         """Turn the crank; before and after a run choose another track, or another level."""
@@ -278,7 +296,7 @@ class FollowRun:
     def _ended(self, state: State) -> State:
         """Return the state with the run over, and its score as an effect."""
         kept = f"best={self.kept_as}:{self.passed // 1_000}"
-        state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_best else "wrong")
+        state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_whole else "wrong")
         return replace(state, game=replace(self, stage="over", notch=0))
 
     @property
@@ -287,9 +305,9 @@ class FollowRun:
         return f"follow-{self.scene}.{self.level}"
 
     @property
-    def is_best(self) -> bool:
-        """Whether the score is better than the best before."""
-        return self.passed // 1_000 > self.best
+    def is_whole(self) -> bool:
+        """Whether the run came to the end of the paper, before its time was up."""
+        return self.paper >= 1_000 * LENGTH
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the paper ahead of the ram, and the score beside it."""
@@ -308,7 +326,7 @@ class FollowRun:
             choices=() if runs else choices,
             bars=bars,
             verdict=self._verdict if self.stage == "over" else "",
-            well=self.is_best,
+            well=self.is_whole,
             lines_after=(state.scene.look_at,) if not runs and state.scene.look_at else (),
             hint=_HINT if runs else f"{_AGAIN[self.stage]}   ↑ ↓ another track   Esc out",
             large=counts,
@@ -318,8 +336,9 @@ class FollowRun:
 
     @property
     def _verdict(self) -> str:
-        before = f"; the best was {self.best / 1e3:.2f} m" if self.best else ""
-        end = "to the end of the paper" if self.paper >= 1_000 * LENGTH else "then its time was up"
+        best = self.passed // 1_000 > self.best
+        before = "; the best so far" if best else f"; the best was {self.best / 1e3:.2f} m"
+        end = "to the end of the paper" if self.is_whole else "then its time was up"
         return f"{self.metres:.2f} m, {end}{before}"
 
     def _lane(self, state: State) -> Lane:

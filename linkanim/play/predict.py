@@ -132,7 +132,8 @@ class Predict:
         state = replace(state, look=replace(_BARE, names=question.names, theme=state.look.theme))
         state = with_scene(state, scene, question.phase, paused=True)
         game = replace(self, question=question, chosen=None, coming=None, since=state.frame)
-        return replace(state, game=game)
+        places = tuple(complex(*one.place) for one in question.answers if one.place)
+        return replace(state, game=game, also=places)
 
     def _next(self) -> tuple[QuizQuestion, Scene]:
         """Return the next question, and its scene, which has arrows where they explain the answer."""

@@ -310,7 +310,7 @@ def play(state: State, words: str) -> State:
         state = drop(left(state), None)
         state = replace(state, beneath=replace(state, help=False, listing=None, browsing=None))
     bare = replace(state, listing=None, browsing=None, glide=None, home=None, toast=None, layers=None)
-    bare = replace(bare, place_typed="", chip=None)
+    bare = replace(bare, also=(), place_typed="", chip=None)
     editing = Editing()
     return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
 

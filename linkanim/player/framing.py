@@ -148,7 +148,7 @@ def _included(state: State) -> tuple[complex, ...]:
         from linkanim.picture.constructed import found_by
 
         return found_by(state.shown, state.constructed, state.phase)
-    return ()
+    return state.also
 
 
 def _has_moved(one: Picture, other: Picture) -> bool:

@@ -854,8 +854,9 @@ class State:
     over the state `beneath`, and `games` reads a game from its words. Recordings are made as `take` says.
     `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether
     a gamepad is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted
-    scene. `sounds` says whether the motion is heard, None where the user has not chosen. With
-    `reduced_motion` the picture changes at once, without fades, glides and moving views.
+    scene, `also` are places that it keeps in sight beside that. `sounds` says whether the motion is heard,
+    None where the user has not chosen. With `reduced_motion` the picture changes at once, without fades,
+    glides and moving views.
 
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
@@ -909,6 +910,7 @@ class State:
     sounds: bool | None = None
     reduced_motion: bool = False
     home: Box | None = None
+    also: tuple[complex, ...] = ()
     stirred: int | None = None
     touched: int = 0
     effects: tuple[Action, ...] = ()

@@ -23,11 +23,13 @@ from linkanim.play.kinds import KINDS
 from linkanim.play.menus import Menu
 from linkanim.play.predict import COUNT, QUICK, TRIES, GivenAnswer, Predict, points
 from linkanim.play.question import QuestionId
+from linkanim.play.quiz import next_question
 from linkanim.play.scores import keep
 from linkanim.play.scores import load as load_scores
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
+from linkanim.player.framing import Framing
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, Taping, resumed, starting
 from linkanim.player.tape_file import read, write
@@ -47,6 +49,25 @@ def playing(words: str) -> State:
 def round_of(state: State) -> Predict:
     assert isinstance(state.game, Predict)
     return state.game
+
+
+@pytest.mark.parametrize("name", ["hoecken", "slider-crank", "toggle-clamp", "grashof-limit-six-bar"])
+def test_the_points_of_a_question_are_in_sight(name: str) -> None:
+    scene, looked = load(name), 0
+    for seed in range(3):
+        question = next_question(scene, f"{seed}", (), ("instant centre",))
+        if question.kind == "instant centre":
+            state = playing(f"predict seed=1 again={question.question_id}")
+            asked = round_of(state).question
+            assert asked
+            view = Framing(window=True).fitting(state, (640, 360)).view
+            for answer in asked.answers:
+                assert answer.place
+                x, y = view.to_pixel(*answer.place)
+                assert 0 <= x <= 640
+                assert 0 <= y <= 342
+                looked += 1
+    assert looked > 2
 
 
 def right_of(state: State) -> int:
