@@ -131,7 +131,7 @@ def _at(place: complex) -> str:
 def body_style(font: str, wide: int) -> str:
     """Return the CSS of a page's text: `font` is its size and line height, `wide` its width in rem."""
     return f"""
-body {{ font: {font} "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
+body {{ font: {font} "Helvetica Neue", Arial, "Liberation Sans", sans-serif;
        color: #1b1f23; margin: 2rem auto; max-width: {wide}rem; padding: 0 1rem; }}
 """
 

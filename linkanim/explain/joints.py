@@ -55,6 +55,7 @@ from linkanim.explain.steps import (
 )
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
+from linkanim.units import rounded as told
 from linkanim.units import significant
 
 # How each kind of joint is worked out by hand, and the one list of them.
@@ -89,7 +90,12 @@ def place_crank(crank: Crank, work: Work) -> None:
     ends = crank.pivot, crank.name
     if crank.gear is not None:
         mate = work.linkage.crank(crank.gear.mate)
-        offset = work.stated(Symbol("δ", crank.name), crank.gear.offset, ANGLE, "angle of the gears at θ = 0")
+        offset = work.stated(
+            Symbol("δ", crank.name),
+            crank.gear.offset,
+            ANGLE,
+            "angle of its crank when the driving gear is at 0°",
+        )
         driven = _ratio(crank.gear) * work.angle_of(mate.pivot, mate.name) + offset
         work.angles[ends] = work.let(work.angle_symbol(*ends), driven, ANGLE)
     work.let_point(crank.name, work.points[crank.pivot] + work.bar(*ends, crank.length))
@@ -180,16 +186,16 @@ def place_bars(joint: RRR, work: Work) -> None:
     (p, q), name = joint.ends, joint.name
     span = work.points[q] - work.points[p]
     work.say(
-        f"From {marked(p)} to {marked(q)} the distance d and its direction δ, then the triangle of both bars "
-        "by the cosine rule:"
+        f"The distance d from {marked(p)} to {marked(q)} and its direction δ; then the cosine rule in the "
+        "triangle of the two bars:"
     )
     d = work.let(Symbol("d", name), sqrt(square(span.x) + square(span.y)), LENGTH)
     symbol = work.angle_symbol(p, name)
     if d.value == 0:
-        work.say("Both ends lie in one point, where every direction closes; the motion takes this one:")
+        work.say("Both ends coincide, so every direction closes the loop; the motion continues in this one:")
         at = complex(*work.pose.position[name]) - complex(*work.pose.position[p])
         work.angles[p, name] = work.known(
-            symbol, phase(at), ANGLE, f"from the motion through {marked(p)} = {marked(q)}"
+            symbol, phase(at), ANGLE, f"as the motion passes {marked(p)} = {marked(q)}"
         )
     else:
         work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, span, d), ANGLE)
@@ -211,7 +217,7 @@ def _corner(cosine: Formula, work: Work, name: str) -> Formula:
     """Add the triangle's angle; at a limit, where rounding takes its cosine past 1, it is 0 or 180°."""
     if abs(cosine.value) <= 1:
         return work.let(Symbol("γ", name), arccos(cosine), ANGLE)
-    work.say("To the digits shown the bars lie in one line: the cosine of γ is rounded past 1.")
+    work.say("In the digits shown the two bars lie in one line: rounding takes the cosine of γ past 1.")
     return number("0" if cosine.value > 0 else "180", in_degrees=True)
 
 
@@ -223,13 +229,16 @@ def _left(joint: RRR, work: Work) -> bool:
 
 def _why_left(joint: RRR, left: bool) -> str:
     p, q = joint.ends
-    side, sign = ("left", "added") if left else ("right", "taken off")
-    found = f"Here {marked(joint.name)} lies {side} of {marked(p)} → {marked(q)}, so γ is {sign}"
-    if joint.side_of is not None:
-        return f"{found}: the closure to which the motion leads from its start."
-    if left == (joint.side > 0):
-        return f"{found}: as the scene file states."
-    return f"{found}: the motion came to this closure through a limit or a change point."
+    side, sign = ("left", "added") if left else ("right", "subtracted")
+    found = (
+        f"In this position {marked(joint.name)} lies to the {side} of the line from {marked(p)} to "
+        f"{marked(q)}, so γ is {sign}"
+    )
+    stated = joint.side_of is not None or left == (joint.side > 0)
+    return f"{found}." if stated else f"{found}: {_PASSED}."
+
+
+_PASSED = "the motion has come to this closure through a limit or a change point"
 
 
 def half_angle(joint: RRR, work: Work) -> None:
@@ -243,8 +252,8 @@ def half_angle(joint: RRR, work: Work) -> None:
     span, angle = work.points[q] - work.points[p], work.angles[q, name]
     before = len(work.items)
     work.say(
-        f"With the angle of {marked(p)}–{marked(name)} eliminated the loop is A cos θ + B sin θ = C, a "
-        f"quadratic for tan(θ/2):"
+        f"Eliminating the angle of {marked(p)}–{marked(name)} from the loop leaves A cos θ + B sin θ = C for "
+        f"the angle θ of {marked(q)}–{marked(name)}, a quadratic equation in tan(θ/2):"
     )
     cosine = work.let(Symbol("A", name), TWO * b * span.x, SQUARE)
     sine = work.let(Symbol("B", name), TWO * b * span.y, SQUARE)
@@ -260,13 +269,16 @@ def half_angle(joint: RRR, work: Work) -> None:
     found = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
     miss, places = abs(math.remainder(found.value - angle.value, 360)), work.scale.decimals(ANGLE)
     sign = "plus" if _left(joint, work) else "minus"
-    apart = "the same" if miss < 3 * 10.0**-places else f"the same to {significant(miss, 1)}°"
+    turns = "" if abs(found.value - angle.value) < _HALF_TURN else ", apart from a full turn"
+    apart = "" if miss < 3 * 10.0**-places else f", to within {told(miss, 1)}°"
     work.say(
-        f"The root takes {sign} on this closure. But for whole turns the angle of {marked(q)}–{marked(name)} "
-        f"above is {apart}."
+        f"The root is taken with a {sign} on this closure. The result is the angle of "
+        f"{marked(q)}–{marked(name)} "
+        f"found above{turns}{apart}."
     )
 
 
+_HALF_TURN = 180.0
 _HALF_ANGLE_LEFT = 1e-3
 """A share of A and B: where the parts of the fraction tan(θ/2) are smaller, the digits are lost."""
 
@@ -309,13 +321,15 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
     name, end = joint.name, joint.end
     guide = work.guide(joint.line, name)
     work.say(
-        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (p) and to its left (n), "
-        "then the slider's way s:"
+        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (p) and to the left of the "
+        "guide (n); then the slider's travel s:"
     )
     forward, aside = beside_guide(work, guide, end, name)
     margin = square(work.length(end, name, joint.length)) - square(aside)
     if margin.value < 0:
-        work.say("To the digits shown the bar stands square to the guide: what is under the root is 0.")
+        work.say(
+            "In the digits shown the bar is perpendicular to the guide, and the value under the root is 0."
+        )
     root = sqrt(margin) if margin.value >= 0 else ZERO
     ahead = _slider_ahead(joint, work)
     work.say(_why_ahead(joint, ahead))
@@ -333,10 +347,12 @@ def _slider_ahead(joint: RRP, work: Work) -> bool:
 
 
 def _why_ahead(joint: RRP, ahead: bool) -> str:
-    where, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
-    named = ahead == (joint.side > 0)
-    why = "as the scene file states" if named else "the motion came to it through a limit or a change point"
-    return f"Here {marked(joint.name)} is {where} {marked(joint.end)}, so the root has a {sign}: {why}."
+    where, sign = ("ahead of", "added") if ahead else ("behind", "subtracted")
+    why = "" if ahead == (joint.side > 0) else f": {_PASSED}"
+    return (
+        f"In this position {marked(joint.name)} is {where} {marked(joint.end)} along the guide, so the root "
+        f"is {sign}{why}."
+    )
 
 
 def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
@@ -366,8 +382,8 @@ def place_slot(joint: RPR, work: Work) -> None:
     arm = work.points[pin] - work.points[pivot]
     offset = _slot_offset(joint, work)
     work.say(
-        f"The slotted bar turns about {marked(pivot)} and its slot passes through {marked(pin)}, "
-        "s ahead of it:"
+        f"The slotted bar turns about {marked(pivot)}; the pin {marked(pin)} is in its slot, s along it from "
+        f"{marked(pivot)}:"
     )
     root = sqrt(square(arm.x) + square(arm.y) - square(offset))
     slide = work.let(work.names.slide(name), root if _pin_ahead(joint, work) else -root, LENGTH)
@@ -414,8 +430,8 @@ def place_yoke(joint: RPP, work: Work) -> None:
     name = joint.name
     guide, slot = work.guide(joint.line, name), _slot(joint, work)
     work.say(
-        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (p) and to its left "
-        "(n), and where the slot crosses it:"
+        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (p) and to the left "
+        "of the guide (n); then the travel s at which the slot crosses the guide:"
     )
     forward, aside = beside_guide(work, guide, joint.pin, name)
     work.slides[name] = work.let(work.names.slide(name), forward - aside * (cos(slot) / sin(slot)), LENGTH)
@@ -444,7 +460,9 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     unknowns = bar, UnknownRate(name, _along_slot(joint, work, guide), "t")
     right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, *unknowns)
     if rates.slopes is None and order == 1:
-        work.say(f"Here f is of the way along the guide, g of that of {marked(joint.pin)} along the slot:")
+        work.say(
+            f"f belongs to the travel along the guide, g to the travel of {marked(joint.pin)} along the slot:"
+        )
     rates.solve(name, unknowns, right, order)
     carried = rates.guided(guide, name, order, bar)
     rates.let_moving(name, carried + bar.column.times(rates.rate(name, order)), order)
@@ -474,8 +492,8 @@ def reach_of_bars(joint: RRR, work: Work) -> Reach:
     bars = (work.length(end, joint.name, length) for end, length in joint.bars)
     short, long = sorted(bars, key=lambda bar: bar.value)
     work.say(
-        f"The bars that meet in {marked(joint.name)} close while the distance of {marked(p)} and {marked(q)} "
-        f"lies between the difference and the sum of their lengths:"
+        f"The bars that meet at {marked(joint.name)} can be assembled as long as the distance from "
+        f"{marked(p)} to {marked(q)} lies between the difference and the sum of their lengths:"
     )
     low = work.let(Symbol("d", "min"), long - short if long.value > short.value else ZERO, LENGTH)
     high = work.let(Symbol("d", "max"), long + short, LENGTH)
@@ -495,8 +513,9 @@ def reach_of_slider(joint: RRP, work: Work) -> Reach:
 
     length = work.length(joint.end, joint.name, joint.length)
     work.say(
-        f"The bar of {marked(joint.name)} reaches its guide while {marked(joint.end)} is no farther from it "
-        f"than the bar is long, {length.shown} {work.scale.unit}."
+        f"The bar from {marked(joint.end)} reaches the guide of {marked(joint.name)} as long as "
+        f"{marked(joint.end)} is no farther from the guide than the bar's length, {length.shown} "
+        f"{work.scale.unit}."
     )
     return Reach("That distance", aside, -math.inf, joint.length)
 
@@ -507,8 +526,8 @@ def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
         return None
     offset = abs(joint.offset)
     work.say(
-        f"The slot of {marked(joint.name)} takes {marked(joint.through)} while that is at least as far from "
-        f"{marked(joint.pivot)} as the slot is offset, {significant(offset, 6)} {work.scale.unit}."
+        f"The slotted bar can hold the pin {marked(joint.through)} as long as that is no nearer to "
+        f"{marked(joint.pivot)} than the slot's offset, {significant(offset, 6)} {work.scale.unit}."
     )
     return Reach("That distance", lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
 

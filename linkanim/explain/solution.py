@@ -62,13 +62,14 @@ from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import RRR, Body, Crank, CrankTriangle, Cylinder, Damper, Load, Spring, Travel
 from linkanim.mechanics.measures import loaded
 from linkanim.mechanics.motion import Mechanism
-from linkanim.mechanics.quantities import input_symbol, link_labels
+from linkanim.mechanics.quantities import called, input_symbol, link_labels
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded as told
 
 # Where the input is and how it moves: as it was asked for, or from the phase.
 
+_SECOND = "acceleration of the input"
 _PI = Formula("leaf", symbol=Symbol("π"), shown="3.14159265359")
 _ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
@@ -114,15 +115,17 @@ def place_input(request: PoseRequest, rates: Rates) -> None:
 def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     """Return the requested angle, or the angle by the start and the phase."""
     work = rates.work
-    rate = work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "the input")
+    rate = work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "velocity of the input")
     second = ZERO
     if request.acceleration:
-        second = work.known(rates.symbol(work.driver, 2), request.acceleration, _TWICE, "the input")
+        second = work.known(rates.symbol(work.driver, 2), request.acceleration, _TWICE, _SECOND)
     rates.start(rate, second)
     if request.by == "angle":
-        return work.known(symbol, request.value, ANGLE, "the input")
+        return work.known(symbol, request.value, ANGLE, "position of the input")
     phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
-    start = work.stated(Symbol("θ", "0"), request.scene.linkage.drive.start, ANGLE, "start")
+    start = work.stated(
+        Symbol("θ", "0"), request.scene.linkage.drive.start, ANGLE, "position of the input at phase 0"
+    )
     return work.let(symbol, start + phase, ANGLE)
 
 
@@ -179,9 +182,11 @@ def _cylinder(
         for name, side, end in zip("gc", triangle.sides, between, strict=True)
     )
     base = work.known(
-        Symbol("θ", "b"), triangle.base, ANGLE, "the crank's angle with the cylinder's ends in line"
+        Symbol("θ", "b"), triangle.base, ANGLE, "the crank's angle at which the three lie in one line"
     )
-    work.say("The cylinder is one side of a triangle with the crank's pivot:")
+    work.say(
+        "The ends of the cylinder and the crank's pivot form a triangle; the cosine rule gives the crank:"
+    )
     corner = work.let(Symbol("ψ"), arccos((square(g) + square(r) - square(length)) / (TWO * g * r)), ANGLE)
     found = work.let(symbol, base + corner if triangle.side > 0 else base - corner, ANGLE)
     arm = g * r * sin(corner)
@@ -225,7 +230,7 @@ def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     length = work.let(Symbol("L", name), sqrt(square(span.x) + square(span.y)), LENGTH)
     yield work.scale.outcome(f"{name}.length", length, LENGTH)
     if length.value == 0:
-        work.say("Its ends meet here, so its rate does not follow from this.")
+        work.say("Its ends coincide here, so its rate does not follow from this.")
         return
     rate = rates.let(Symbol("L", name, "˙"), dot(span, moving) / length, Powers(1, 1))
     yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
@@ -242,7 +247,7 @@ def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) 
         return work.quoted(Symbol("c", item.name), f"{item.coefficient:.12g}", "N s/m") * rate * metre
     assert item.stiffness is not None
     assert item.free_length is not None
-    free = work.stated(Symbol("L", f"{item.name}0"), item.free_length, LENGTH, "its length without force")
+    free = work.stated(Symbol("L", f"{item.name}0"), item.free_length, LENGTH, "free length")
     return work.quoted(Symbol("k", item.name), f"{item.stiffness:.12g}", "N/m") * (length - free) * metre
 
 
@@ -263,21 +268,23 @@ def effort(rates: Rates, known: Mapping[str, Formula], motion: Any) -> Iterator[
     """
     work, linkage = rates.work, rates.work.linkage
     if not rates.struts.keys() >= set(_forceful(rates)):
-        work.say("The rate of a spring or damper does not follow here, nor does what the input delivers.")
-        return
-    if linkage.loads:
         work.say(
-            "The input delivers the power of springs, dampers and masses, less that of loads, over its rate:"
+            "The rate of a spring or damper does not follow here, and so neither does the load on the input."
         )
-    else:
-        work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
+        return
+    what = (
+        "springs, dampers and masses, less that of the loads"
+        if linkage.loads
+        else "springs, dampers and masses"
+    )
+    work.say(f"The input delivers the power of {what}; divided by the input's velocity it gives:")
     loads = (-_load_power(load, rates, known, motion) for load in linkage.loads)
     powers = [*_strut_powers(rates), *_body_powers(rates, known), *loads]
     total = work.let_plain(Symbol("P"), sum(powers, ZERO), "W")
     name, unit = linkage.drive.actuator.effort
     pace = _pace(rates)
     if pace.value == 0:
-        work.say("The input is at rest here, so this does not follow from the balance of power.")
+        work.say("The input is at rest here, so it does not follow from the balance of power.")
         return
     delivered = work.let_plain(Symbol(name[0].upper(), "in"), total / pace, unit)
     yield Outcome(effort_token(linkage), delivered, last=True)
@@ -379,25 +386,28 @@ TOLD = 4
 _LONG = 100.0
 """The factor on the median bar beyond which a longest bar does not set the decimals of lengths."""
 _TINY = 1e-300
-_PRIMES = "Primes are derivatives by the input: h for angles, f for displacements."
+_PRIMES = (
+    "Kinematic coefficients are derivatives with respect to the input: h of a link's angle, f of a travel, "
+    "x′ and y′ of a point; the second ones are h′, f′, x″ and y″."
+)
 _BY_INPUT = (
-    f"{_PRIMES} Each loop differentiated gives "
-    "two linear equations; a are the entries of their matrix, b the right sides, D the determinant, and both "
-    "unknowns follow by Cramer's rule."
+    f"{_PRIMES} Differentiating a loop gives two linear equations, with a matrix a, its determinant D and "
+    "the right-hand sides b; Cramer's rule gives the two unknowns."
 )
 _IN_TIME = (
-    "By the chain rule each rate is its coefficient times the input's rate.",
-    "By the chain rule once more: the second coefficient times the square of the input's rate, and the first "
-    "times its acceleration, if it has one.",
+    "By the chain rule, a velocity is the first coefficient times the velocity of the input.",
+    "By the chain rule, an acceleration is the second coefficient times the square of the velocity of the "
+    "input{}.",
 )
-_CHECK = "Check: put into the differentiated loops, these rates leave {} at the most."
+_ACCELERATED = ", plus the first coefficient times the acceleration of the input"
+_CHECK = "Check: inserted in the differentiated loops, these values leave a residual of at most {}."
 _CARRIED = "Enough digits are carried to give every result to five significant digits{}."
-_BUT = ", one that is small beside its like to fewer"
-_AS_INPUT = "The slider is the input, and goes as that does."
-_NO_LOOP = "There is none to close: each joint follows from the input alone."
+_BUT = ", or to fewer where it is small beside others of its kind"
+_AS_INPUT = "The slider is the input itself, so this is given."
+_NO_LOOP = "There is no loop to close: every joint follows directly from the input."
 _SINGULAR = (
-    "No rates follow here with the digits that a page can show: at a limit or a change point the two linear "
-    "equations of a dyad are one. Take a pose beside it."
+    "At a limit or a change point the two linear equations of a dyad are not independent, so no velocities "
+    "follow from them. Choose a position beside it."
 )
 
 
@@ -646,6 +656,7 @@ class _Draft:
         """Yield the chapters of velocities and accelerations, by the chain rule if there are coefficients."""
         titles = {"velocity": "Velocities", "acceleration": "Accelerations"}
         for order, (word, title), text in zip(ORDERS, titles.items(), _IN_TIME, strict=True):
+            text = text.format(_ACCELERATED * bool(self.request.acceleration or self.request.swings))
             self._step("", partial(self.work.say, text if has_coefficients else _AS_INPUT))
             self._moved(self.rates, order)
             for joint in self.linkage.joints:
@@ -689,7 +700,9 @@ class _Draft:
         """Yield the chapters of centres of mass, springs and dampers, and of the input's torque or force."""
         for body in self._turning():
             if body.com is not None:
-                self._found(f"Link {body.name}", centre_of_mass(body, self.rates))
+                self._found(
+                    called(body, self.request.scene.info.link_names), centre_of_mass(body, self.rates)
+                )
         yield from self._chapter("Centres of mass")
         for item in self.linkage.springs + self.linkage.dampers:
             word = self.linkage.strut_word(item)
@@ -698,7 +711,7 @@ class _Draft:
         if self.linkage.forceful:
             known = {result.token: result.value for result in self.results}
             self._found("", effort(self.rates, known, self.request.motion()))
-            yield from self._chapter("Input")
+            yield from self._chapter("Load on the input")
 
     def _found(self, title: str, found: Iterable[Outcome]) -> None:
         """Add a step with its results."""

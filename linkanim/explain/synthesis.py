@@ -122,7 +122,7 @@ class _Chapter:
         count = len(purpose.poses)
         found = guided_body(self.scene, purpose)
         self._step("Poses", partial(self._poses, purpose))
-        self._step("Turns and shifts", self._against)
+        self._step("Displacements", self._against)
         if count <= 3 and len(found.poses.poles) == count * (count - 1) // 2:
             self._step("Poles", partial(self._poles, count))
         for joint, place, pivot, held in zip("AB", found.joints, ("O2", "O4"), found.held, strict=True):
@@ -138,7 +138,7 @@ class _Chapter:
     def _poses(self, purpose: PosesPurpose) -> None:
         """Add the poses as they are given: the origin's places, and the angles."""
         self.work.say(
-            f"The body in its {len(purpose.poses)} poses: x and y of its origin, the angle it is turned by."
+            f"The {len(purpose.poses)} poses of the body: x and y of its origin, and the angle φ of its axis."
         )
         for n, (x, y, angle) in enumerate(purpose.poses, start=1):
             self.origins.append((self._given("x", n, x), self._given("y", n, y)))
@@ -146,7 +146,7 @@ class _Chapter:
 
     def _against(self) -> None:
         """Add each pose's rotation and displacement from the first."""
-        self.work.say("Each pose against the first: turned by α, shifted by u and v.")
+        self.work.say("Each pose relative to the first: the rotation α and the displacement u, v.")
         (x, y), *others = self.origins
         for n, (angle, origin) in enumerate(zip(self.turned[1:], others, strict=True), start=2):
             index = str(n)
@@ -160,8 +160,10 @@ class _Chapter:
     def _poles(self, count: int) -> None:
         """Add the poles: each on the perpendicular bisector of the origin's places, which it sees α apart."""
         self.work.say(
-            "About the pole of two poses a turn takes the one to the other. It lies on the midperpendicular "
-            "of the origin's places, half their distance times the cotangent of half the turn off their line."
+            "A rotation about the pole of two poses takes one to the other. The pole lies on the "
+            "perpendicular "
+            "bisector of the origin's two places, at half their distance times the cotangent of half the "
+            "rotation."
         )
         for one, other in combinations(range(count), 2):
             index = f"{one + 1}{other + 1}"
@@ -178,7 +180,9 @@ class _Chapter:
         py = self.work.known(Symbol("y", pivot), at.imag, LENGTH, "chosen")
         ends = ("O2", "A") if joint == "A" else ("O4", "B")
         own = self._found(joint, (px, py)) if len(self.turns) > 1 else self._chosen(joint, place)
-        self.work.say(f"In every pose {marked(joint)} is as far from {marked(pivot)}: a bar may join them.")
+        self.work.say(
+            f"In every pose {marked(joint)} is equally far from {marked(pivot)}, so a bar can join them."
+        )
         for n, (x, y) in enumerate(self._places(joint, own), start=1):
             squared = square(x - px) + square(y - py)
             length = self._length("r", f"{pivot}{joint}{n}", sqrt(squared))
@@ -195,8 +199,8 @@ class _Chapter:
     def _found(self, joint: str, pivot: tuple[Formula, Formula]) -> tuple[Formula, Formula]:
         """Return where a joint lies in the first pose, from its origin, by the equations of poses 2 and 3."""
         self.work.say(
-            f"That {marked(joint)} is as far from its pivot in pose n as in pose 1 asks a ξ + b η = c of its "
-            "place ξ, η from the first origin, with p and q the pivot's."
+            f"If {marked(joint)} is as far from its pivot in pose n as in pose 1, its coordinates ξ, η from "
+            "the first origin satisfy a ξ + b η = c, where p and q are the pivot's coordinates."
         )
         p = self._length("p", joint, pivot[0] - self.origins[0][0])
         q = self._length("q", joint, pivot[1] - self.origins[0][1])
@@ -233,7 +237,8 @@ class _Chapter:
         py = self.work.known(Symbol("y", "O2"), at.imag, LENGTH)
         offset = self.scene.linkage.joint(joint).line.offset  # type: ignore[attr-defined]
         self.work.say(
-            f"In every pose {marked(joint)} is as far beside {marked('O2')}, left of the guide: it slides."
+            f"In every pose {marked(joint)} has the same offset from {marked('O2')}, so it can slide on a "
+            "line."
         )
         for n, (x, y) in enumerate(self._places(joint, own), start=1):
             beside = (y - py) * cos(direction) - (x - px) * sin(direction)
@@ -247,9 +252,9 @@ class _Chapter:
         outputs: list[Formula] = []
 
         def points() -> None:
-            reads = "the slider's way s" if sliding else "the output's angle ψ"
+            reads = "the slider's travel s" if sliding else "the output's angle ψ"
             self.work.say(
-                f"{purpose.words} is met in these points: x is read on the crank's angle θ, y on {reads}."
+                f"{purpose.words} is met at these points: x is the crank's angle θ to scale, y is {reads}."
             )
             for n, (x, y, theta, place) in enumerate(
                 zip(purpose.x, purpose.y, purpose.input, purpose.output, strict=True), start=1
@@ -271,7 +276,9 @@ class _Chapter:
             self.work.items.append(Equation(k1 * s * cos(theta) + k2 * sin(theta) + k3, square(s)))
         else:
             self.work.items.append(Equation(k1 * cos(psi) - k2 * cos(theta) + k3, cos(theta - psi)))
-        self.work.say("Linear in the three K, it holds in each point; p, q and w are what goes with them.")
+        self.work.say(
+            "It is linear in the three K and holds at every point; p, q and w are its coefficients there."
+        )
         rows = []
         for n, (angle, place) in enumerate(zip(inputs, outputs, strict=True), start=1):
             if sliding:
@@ -283,7 +290,7 @@ class _Chapter:
                 q = self._ratio("q", str(n), -cos(angle))
                 w = self._ratio("w", str(n), cos(angle - place))
             rows.append((p, q, w))
-        self.work.say("The first point's equation less the second's, and less the last's, leave two of them.")
+        self.work.say("Subtracting the second and the last equation from the first leaves two unknowns.")
         (p1, q1, w1), chosen = rows[0], (rows[len(rows) // 2], rows[-1])
         differences = []
         for n, (p, q, w) in enumerate(chosen, start=1):
@@ -300,7 +307,7 @@ class _Chapter:
         self._lengths(one, two, three, sliding=sliding)
         others = [n for n in range(len(rows)) if n not in (0, len(rows) // 2, len(rows) - 1)]
         if others:
-            self.work.say("The equations that were not used hold as well:")
+            self.work.say("The equations that were not used are satisfied too:")
         for n in others:
             p, q, w = rows[n]
             check = self.work.let(
@@ -345,7 +352,9 @@ class _Chapter:
     def _angle(self, purpose: TimeRatioPurpose) -> None:
         """Add the angle between the dead centres' directions."""
         quotient = self.work.known(Symbol("Q"), purpose.ratio, RATIO, "slow to quick")
-        self.work.say("The crank turns by 180° + α on the slow way, by 180° − α on the quick one.")
+        self.work.say(
+            "The crank turns by 180° + α during the slow stroke and by 180° − α during the quick one."
+        )
         straight, one = number("180", in_degrees=True), number("1")
         self.named["α"] = self.work.let(Symbol("α"), straight * (quotient - one) / (quotient + one), ANGLE)
 
@@ -357,7 +366,7 @@ class _Chapter:
             return
         swing = self.work.known(Symbol("ψ"), purpose.swing, ANGLE, "the rocker's swing")
         rocker = self.work.known(Symbol("r", "4"), self._bar("O4", "B"), LENGTH, "the rocker, chosen")
-        self.work.say("Between its dead centres the rocker's pin has the chord H.")
+        self.work.say("The chord between the two dead centres of the rocker's pin is H.")
         chord = self._length("H", "", TWO * rocker * sin(swing / TWO))
         self.named |= {"ψ": swing, "c": rocker, "H": chord}
 

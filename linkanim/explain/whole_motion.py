@@ -62,7 +62,7 @@ _ONE = 1e-9
 _ALIKE = 1e-4
 """The share below which two time ratios are the same."""
 _DIGITS = 6
-_ENDS = ("back", "forward")
+_ENDS = ("back", "front")
 """The ends of a swing or a stroke."""
 
 
@@ -73,7 +73,7 @@ def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
     """
     found = _WholeMotion(scene, work)
     chapters = [
-        Chapter("How far the input goes", tuple(found.reach())),
+        Chapter("Range of the input", tuple(found.reach())),
         Chapter("Dead centres and time ratio", tuple(found.dead_centres())),
     ]
     return tuple(chapter for chapter in chapters if chapter.steps)
@@ -124,15 +124,15 @@ class _WholeMotion:
 
     def reach(self) -> Iterator[Step]:
         """Yield a step for each dyad that may fail to close, and the conclusion for the input."""
-        steps = [self._step(f"Reach of {marked(one.name)}", partial(self._of, one)) for one in self.dyads]
+        steps = [self._step(f"Closure at {marked(one.name)}", partial(self._of, one)) for one in self.dyads]
         found = [step for step in steps if step]
         yield from found
         if found or not self.info.full_turn:
             self.work.items.clear()
-            goes = f"the {self.info.input_name} {self.info.input_words}"
-            self.work.say(f"So {goes}." if found else f"T{goes[1:]}, as the scene states.")
+            goes = f"The {self.info.input_name} {self.info.motion_words}"
+            self.work.say(f"{goes}." if found else f"{goes}, as is given.")
             if self.info.grashof:
-                self.work.say(f"Grashof: {self.info.grashof}, which makes it a {self.info.class_name}.")
+                self.work.say(f"Grashof: {self.info.grashof}; class: {self.info.class_name}.")
             yield Step("", tuple(self.work.items))
 
     def _of(self, joint: Joint) -> None:
@@ -170,15 +170,17 @@ class _WholeMotion:
         g, r = bars.ground, bars.crank
         if g.value * r.value == 0:
             work.say(
-                f"To the digits shown {marked(pin)} is as far from {marked(fixed)} at every angle of the "
-                f"crank: the bars that meet in {marked(joint)} close at all of them or at none."
+                f"In the digits shown {marked(pin)} is equally far from {marked(fixed)} at every crank "
+                f"angle: the bars that meet at {marked(joint)} can be assembled at all of them or at none."
             )
             return
         work.say(
-            f"At a limit of the input the bars that meet in {marked(joint)} lie in one line, stretched or "
-            f"folded, so that {marked(pin)} is as far from {marked(fixed)} as their lengths add up to, or "
-            f"differ by. The cosine rule in the triangle {marked(pivot)}, {marked(pin)}, {marked(fixed)} "
-            f"gives the angle ψ of the crank from the ground line:"
+            f"At a limit of the input the two bars that meet at {marked(joint)} lie in one line, stretched "
+            "or "
+            f"folded, and the distance from {marked(pin)} to {marked(fixed)} is the sum or the difference of "
+            f"their lengths. With this distance the cosine rule in the triangle {marked(pivot)}, "
+            f"{marked(pin)}, "
+            f"{marked(fixed)} gives the crank's angle ψ from the ground line, and its cosine k:"
         )
         for name, reach, low in (
             ("stretched", bars.coupler + bars.output, True),
@@ -192,15 +194,15 @@ class _WholeMotion:
                 corner = work.let(Symbol("ψ", index), arccos(cosine), ANGLE)
                 for sign, angle in (("1", bars.tilt + corner), ("2", bars.tilt - corner)):
                     work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
-                work.say(f"With the bars {name} the input may turn back at these two angles.")
+                work.say(f"With the bars {name}, the input can turn back at these two angles.")
             elif abs(abs(cosine.value) - 1) <= _ONE:
                 work.say(
-                    f"This is {round(cosine.value)}: the bars are {name} with all four in one line, a change "
-                    f"point."
+                    f"The cosine is {round(cosine.value)}: with the bars {name}, all four links lie in one "
+                    f"line, a change point."
                 )
             else:
                 bound = "below −1" if low else "above 1"
-                work.say(f"This cosine is {bound}, so the bars are never {name}.")
+                work.say(f"The cosine would be {bound}: the bars are never {name}.")
 
     def _slider_crank(self, joint: Joint) -> _SliderCrank | None:
         """Return the slider-crank that a joint closes on the driven crank; None where it closes none."""
@@ -225,25 +227,34 @@ class _WholeMotion:
     @staticmethod
     def _where_beside(found: _SliderCrank) -> str:
         if found.beside.constant == 0:
-            return "The crank's pivot lies on the guide's line."
-        return "c is how far the crank's pivot lies to the left of the guide."
+            return "The crank's pivot lies on the line of the guide"
+        return "c is the distance of the crank's pivot from the guide, positive to its left"
 
     def _limits_of_slider(self, found: _SliderCrank) -> None:
         """Add whether the rod reaches the guide from everywhere on the crank's circle."""
         work, joint, crank, rod = self.work, found.joint, found.crank, found.rod
         work.say(
-            f"The rod reaches its guide where {marked(joint.end)} is no farther from the guide than the rod "
-            f"is long. {self._where_beside(found)} n is the farthest that {marked(joint.end)} comes from it:"
+            f"The rod reaches the guide as long as {marked(joint.end)} is no farther from the guide than the "
+            f"rod's length. {self._where_beside(found)}; the greatest distance of {marked(joint.end)} from "
+            "the guide is:"
         )
         beside = self._beside(found)
         farthest = work.let(Symbol("n", "max"), crank + (beside if beside.value >= 0 else -beside), LENGTH)
         if rod.value - farthest.value > _TOUCHES * rod.value:
-            work.say(f"This is less than the rod, {rod.shown} {work.scale.unit}: it reaches at every angle.")
+            work.say(
+                f"This is less than the rod's length, {rod.shown} {work.scale.unit}: the rod always reaches."
+            )
             return
         if self.info.full_turn:
-            work.say("This is the rod's length: where it stands square to its guide is a change point.")
+            work.say(
+                "This is the rod's length: where the rod is perpendicular to the guide there is a change "
+                "point."
+            )
             return
-        work.say("This is more than the rod: where it stands square to its guide the input may turn back:")
+        work.say(
+            "This is more than the rod's length: the input can turn back where the rod is perpendicular to "
+            "it:"
+        )
         for index, reach in (("l", rod), ("r", -rod)):
             sine = (reach - beside) / crank
             if abs(sine.value) <= 1 - _ONE:
@@ -278,17 +289,19 @@ class _WholeMotion:
     def _say_bounds(self, joint: str, reach: Reach, ends: tuple[float, float]) -> None:
         unit, least = self.work.scale.unit, _NEAR * self.scene.linkage.longest
         low, high = (significant(end, _DIGITS) for end in ends)
-        runs = f"{reach.what} runs from {low} {unit} to {high} {unit} over the motion"
+        runs = f"Over the motion this distance lies between {low} {unit} and {high} {unit}"
         if reach.low <= 0:
-            runs = f"{reach.what} is {high} {unit} at the most over the motion"
+            runs = f"Over the motion this distance is at most {high} {unit}"
         elif math.isinf(reach.high):
-            runs = f"{reach.what} is {low} {unit} at the least over the motion"
+            runs = f"Over the motion this distance is at least {low} {unit}"
         if ends[0] - reach.low > least and reach.high - ends[1] > least:
-            self.work.say(f"{runs}, which is within the bounds: no limit comes from here.")
+            self.work.say(f"{runs}, so it never comes to its bound.")
         elif joint in self.scene.mechanism.stops:
             self.work.say(f"{runs}. It comes to its bound where the input turns back.")
         else:
-            self.work.say(f"{runs}. It comes to its bound at a change point, through which the motion runs.")
+            self.work.say(
+                f"{runs}. It comes to its bound at a change point, through which the motion continues."
+            )
 
     # Dead centres and time ratio: where the output turns back, how far it goes, and how long each way takes.
 
@@ -296,10 +309,9 @@ class _WholeMotion:
         """Yield the step on the output's two dead centres; none where the output does not turn back."""
         slider, body = output_slider(self.scene.linkage), output_body(self.scene.linkage)
         if slider is not None and self.info.stroke:
-            title = called(slider, self.info.link_names)
-            step = self._step(title, partial(self._of_slider, slider))
+            step = self._step(called(slider, self.info.link_names), partial(self._of_slider, slider))
         elif slider is None and body is not None and self.info.swing is not None:
-            step = self._step(self.info.link_names[body.name].capitalize(), partial(self._of_rocker, body))
+            step = self._step(called(body, self.info.link_names), partial(self._of_rocker, body))
         else:
             return
         if step:
@@ -340,7 +352,8 @@ class _WholeMotion:
         work, crank, rod = self.work, found.crank, found.rod
         work.say(
             "The slider turns back where crank and rod lie in one line, stretched and folded. "
-            f"{self._where_beside(found)}"
+            f"{self._where_beside(found)}. Its two extreme positions s, the stroke H, and the angles α of "
+            "crank and rod to the guide there:"
         )
         beside = self._beside(found)
         square_ = square(beside)
@@ -360,10 +373,11 @@ class _WholeMotion:
         """Add swing and time ratio of a crank-rocker."""
         work, (pivot, pin, joint, fixed) = self.work, bars.joints
         work.say(
-            f"The rocker turns back where crank and coupler lie in one line, stretched and folded: "
-            f"{marked(joint)} is then as far from {marked(pivot)} as their lengths add up to, or differ by. "
-            f"The cosine rule gives the angles β at {marked(pivot)} and ψ at {marked(fixed)} of the triangle "
-            f"{marked(pivot)}, {marked(joint)}, {marked(fixed)}:"
+            "The rocker turns back where crank and coupler lie in one line, stretched and folded: the "
+            "distance "
+            f"ℓ from {marked(pivot)} to {marked(joint)} is then the sum or the difference of their lengths. "
+            f"The cosine rule in the triangle {marked(pivot)}, {marked(joint)}, {marked(fixed)} gives its "
+            f"angles β at {marked(pivot)} and ψ at {marked(fixed)}:"
         )
         g, r = bars.ground, bars.output
         at_pivot, at_fixed = [], []
@@ -386,12 +400,13 @@ class _WholeMotion:
         left = ((corners[1] - corners[0]).conjugate() * (corners[2] - corners[0])).imag > 0
         side = "left" if left else "right"
         work.say(
-            f"{marked(joint)} stays to the {side} of {marked(pin)} → {marked(fixed)}. The crank is then at"
+            f"{marked(joint)} always lies to the {side} of the line from {marked(pin)} to {marked(fixed)}, "
+            "so the crank's angles at the two dead centres are:"
         )
         turned = [angle if left else -angle for angle in at_pivot]
         work.let(Symbol("θ", "stretched"), bars.tilt + turned[0], ANGLE)
         work.let(Symbol("θ", "folded"), bars.tilt + _STRAIGHT + turned[1], ANGLE)
-        work.say("Swing of the rocker, and the crank's angle over the slow way:")
+        work.say("The swing of the rocker, the crank's angle during the slow stroke, and the time ratio:")
         work.let(Symbol("ψ", "swing"), at_fixed[0] - at_fixed[1], ANGLE)
         lean = at_pivot[0] - at_pivot[1]
         self._ratio(_STRAIGHT + (lean if lean.value >= 0 else at_pivot[1] - at_pivot[0]))
@@ -401,8 +416,8 @@ class _WholeMotion:
         if phases is None:
             return
         work, scene, sliding = self.work, self.scene, body.slider is not None
-        rate = "rate of its travel" if sliding else "angular velocity of the link"
-        work.say(f"It turns back where the {rate} is zero. A search finds these places:")
+        rate = "velocity" if sliding else "angular velocity"
+        work.say(f"It turns back where its {rate} is zero, found here by numerical search:")
         motion = scene.solve(phase=np.array(phases), derivatives=0)
         # the first angle is given within one turn, the second by the swing from there
         first = (
@@ -419,14 +434,14 @@ class _WholeMotion:
                 Symbol("θ" if by_angle else "φ", end),
                 float(at) % math.tau,
                 ANGLE,
-                f"{what}, furthest {end}",
+                f"{what} at its {end} end",
             )
             for at, end in zip(inputs, _ENDS, strict=True)
             for what in ("input" if by_angle else "phase",)
         ]
         ends = [
-            self._found(Symbol(letter, index), value, measure, f"{words} there")
-            for index, value in zip(_ENDS, (first, first + stroke), strict=True)
+            self._found(Symbol(letter, end), value, measure, f"{words} at its {end} end")
+            for end, value in zip(_ENDS, (first, first + stroke), strict=True)
         ]
         work.let(Symbol("H") if sliding else Symbol("ψ", "swing"), ends[1] - ends[0], measure)
         forth = places[1] - places[0]
@@ -437,18 +452,18 @@ class _WholeMotion:
             self._ratio(slow)
         elif self.info.true_period > 1:
             work.say(
-                f"Its true period is {self.info.true_period} drive periods. From one of these places to the "
-                f"other the slow way takes {ratio:.4f} times as long as the quick one."
+                f"The motion repeats after {self.info.true_period} periods of the input. The slow stroke "
+                f"takes {ratio:.4f} times as long as the quick one."
             )
         elif quick < _ALIKE * _ROUND.value:
             work.say(
-                "The quick way is too short for the digits that are printed here. The slow way takes "
+                "The quick stroke is too short for the digits shown; the slow one takes "
                 f"{ratio:.4g} times as long."
             )
         else:
             work.say(
-                "It comes to one of them more than once in a true period. From one to the next the slow way "
-                f"takes {ratio:.4f} times as long as the quick one."
+                "It comes to one of them more than once before the motion repeats. From one to the next "
+                f"the slow stroke takes {ratio:.4f} times as long as the quick one."
             )
 
     def _found(self, symbol: Symbol, value: float, measure: Powers, words: str) -> Formula:

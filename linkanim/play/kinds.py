@@ -104,9 +104,9 @@ def doubled(puzzle: Puzzle) -> QuizQuestion | None:
     return _growing(
         puzzle,
         f"{name}.{kind}",
-        f"How large is the {kind} of {name} in the same place?",
+        f"How large is the {kind} of {name} in the same position?",
         factor,
-        f"It goes with {power}: {number(value)} becomes {number(factor * value)} {unit}.",
+        f"It is proportional to {power}: {number(value)} becomes {number(factor * value)} {unit}.",
     )
 
 
@@ -120,13 +120,13 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
                 clear.append((item, factor, abs(puzzle.value(f"{item.name}.force"))))
     if clear:
         item, factor, value = puzzle.random.choice(clear)
-        why = f"It depends on its length alone, which is the same there: it stays {number(value)} N."
+        why = f"It depends on the length alone, which is the same there: it stays {number(value)} N."
         if factor == 2:
             why = f"It is proportional to the speed: {number(value)} N becomes {number(factor * value)} N."
         return _growing(
             puzzle,
             item.name,
-            f"How large is the force of the {known.strut_words(item)} in the same place?",
+            f"How large is the force of the {known.strut_words(item)} in the same position?",
             factor,
             why,
             Look(names=1, chart=f"{item.name}.force"),
@@ -138,7 +138,7 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
     return _growing(
         puzzle,
         f"{name}.acceleration",
-        f"How large is the force that accelerates a mass at {name}, in the same place?",
+        f"How large is the force that accelerates a mass at {name}, in the same position?",
         4,
         "It is proportional to the acceleration, and so to the square of the speed.",
     )
@@ -153,7 +153,7 @@ def _growing(
         f"The input runs twice as fast. {text}",
         QuizAnswer(_FACTORS[factor]),
         [
-            QuizAnswer(words, f"what {_GOES_WITH[one]} does")
+            QuizAnswer(words, f"how {_GOES_WITH[one]} changes")
             for one, words in _FACTORS.items()
             if one != factor
         ],
@@ -198,7 +198,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
         f"Over one period, which curve is the {kind}{right} of {puzzle.name(body)}{where}?",
         answers.pop(which),
         answers,
-        f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",
+        f"Where the {_ORDERS[which - 1]} has its extremes, the {right}, its slope, is zero.",
         shows=Look(names=1, chart=token),
     )
 
@@ -296,7 +296,7 @@ def pole(puzzle: Puzzle) -> QuizQuestion | None:
     one, other = puzzle.random.choice(near)
     middle = (origins[one] + origins[other]) / 2
     tries = [(2 * middle - poles[one, other], "the turn taken the other way round")]
-    tries += [(middle, "the middle of the way, about which it would be turned by half a turn")]
+    tries += [(middle, "the middle between the places, about which it would turn by half a turn")]
     tries += [
         (poles[pair], f"the pole of poses {pair[0] + 1} and {pair[1] + 1}")
         for pair in near
@@ -316,9 +316,9 @@ def pole(puzzle: Puzzle) -> QuizQuestion | None:
         f"A body is taken from the pose at {first} to that at {second} by one turn: about which point?",
         QuizAnswer(_place(puzzle, poles[one, other])),
         wrong,
-        "The pole lies on the midperpendicular of the way between both places, "
-        f"{number(abs(poles[one, other] - middle))} {puzzle.scene.length_unit} from its middle: half the way "
-        "times the cotangent of half the turn.",
+        "The pole lies on the perpendicular bisector of the two places, "
+        f"{number(abs(poles[one, other] - middle))} {puzzle.scene.length_unit} from its middle: half their "
+        "distance times the cotangent of half the turn.",
         shuffled=True,
     )
 
@@ -350,18 +350,18 @@ def slow_way(puzzle: Puzzle) -> QuizQuestion | None:
     slow, quick = 360 * ratio / (1 + ratio), 360 / (1 + ratio)
     beyond = slow - 180
     tries = {
-        quick: "the quick way taken for the slow one",
+        quick: "the quick stroke taken for the slow one",
         180 * ratio: "half a turn times the time ratio",
         180 + beyond / 2: "the angle between the directions of the dead centres halved",
     }
     wrong = [QuizAnswer(angle(value), slip) for value, slip in tries.items() if value < 360]
     return puzzle.question(
         "input",
-        f"The output's slow way takes {number(ratio)} times as long as its quick way. "
-        "By how much does the crank turn meanwhile?",
+        f"The output's slow stroke takes {number(ratio)} times as long as its quick stroke. "
+        "By how much does the crank turn during the slow one?",
         QuizAnswer(angle(slow)),
         wrong,
-        f"Both ways are a whole turn, in this ratio: {tenths(slow)} and {tenths(quick)}.",
+        f"Both strokes together are a whole turn, in this ratio: {tenths(slow)} and {tenths(quick)}.",
         shuffled=True,
     )
 
@@ -381,10 +381,10 @@ def precision_point(puzzle: Puzzle) -> QuizQuestion | None:
     shown = " and ".join([", ".join(map(_at, purpose.x[:-1])), _at(purpose.x[-1])])
     return puzzle.question(
         "input",
-        f"Made for {purpose.words}: where does the linkage give y without an error of its structure?",
+        f"Made for {purpose.words}: where is the linkage's structural error zero?",
         QuizAnswer(_at(right)),
         [QuizAnswer(_at(x), slip) for x in middles[: MOST - 1]],
-        f"Its precision points are {shown}; between them the error goes to one side and to the other.",
+        f"Its precision points are {shown}; between them the error changes its sign.",
         shuffled=True,
     )
 
@@ -411,7 +411,7 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
     body = puzzle.random.choice(clear)
     rate = puzzle.value(f"{body.name}.angular_velocity")
     against = puzzle.scene.linkage.drive.coordinate.is_angle and puzzle.pose.coordinate_rate * rate < 0
-    slip = "the input's direction, handed on along the chain" if against else f"the way it turns {_BACKWARDS}"
+    slip = "the input's direction, passed on along the chain" if against else f"the way it turns {_BACKWARDS}"
     misled = " The input turns the other way: a chain does not hand on directions." if against else ""
     return puzzle.question(
         body.name,
@@ -433,7 +433,7 @@ def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
     lies = f"{second} lies {SIDES[place]} {first}"
     if not is_fixed[first]:
         lies = f"Seen from {first}, {second} lies {BESIDE[place]}"
-    turns = f"{puzzle.name(body)} turns {TURNS[rate < 0]}, with {number(abs(rate))} rad/s"
+    turns = f"{puzzle.name(body)} turns {TURNS[rate < 0]}, at {number(abs(rate))} rad/s"
     return f"{lies} and moves {WAYS[moving]}: {turns}."
 
 
@@ -455,7 +455,7 @@ def fastest(puzzle: Puzzle) -> QuizQuestion | None:
     slips = dict(_taken_for_fastest(puzzle, chosen))
     return puzzle.question(
         "velocity",
-        "Which of these points is fastest?",
+        "Which of these points moves fastest?",
         QuizAnswer(first, place=places[first]),
         [QuizAnswer(name, slips.get(name, ""), places[name]) for name in others],
         f"{_why_faster(puzzle, first, others)}The speeds: {listed}.",
@@ -473,7 +473,7 @@ def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, 
         *_, next_to, far = sorted(names, key=lambda name: ways[name])
         if ways[far] - ways[next_to] > CLEAR * ways[far]:
             yield far, f"the point farthest from {pivot}, taken for the fastest"
-    yield linkage.drive.joint, "the input taken for the fastest: a chain can speed up on its way"
+    yield linkage.drive.joint, "the input taken for the fastest: a chain of links can speed up"
 
 
 def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
@@ -539,7 +539,7 @@ def _taken_for_heading(puzzle: Puzzle, name: str, correct: int) -> Iterator[tupl
 def _why_heading(puzzle: Puzzle, name: str) -> str:
     """Return why a joint moves as it does: by the bar that pushes it, or by its link's instant centre."""
     velocity = puzzle.vector("velocity", name)
-    moves = f"{WAYS[quarter(velocity)]}, with {number(abs(velocity))} {puzzle.scene.length_unit}/s"
+    moves = f"{WAYS[quarter(velocity)]}, at {number(abs(velocity))} {puzzle.scene.length_unit}/s"
     joint = puzzle.scene.linkage.joint(name)
     if _is_guided(puzzle, name):
         for end, _ in joint.bars:
@@ -560,7 +560,7 @@ def _why_heading(puzzle: Puzzle, name: str) -> str:
     if carried:
         return f"At this instant {carried} does not turn: all its points move alike, {name} {moves}."
     bars = " and ".join(f"{end}–{name}" for end, _ in joint.bars)
-    keeps = f"Only so do the bars {bars} keep their lengths: " if bars else "What carries it takes it along: "
+    keeps = f"Only this keeps the lengths of the bars {bars}: " if bars else "It is carried along: "
     return f"{keeps}{name} moves {moves}."
 
 
@@ -609,10 +609,10 @@ def _why_pole(puzzle: Puzzle, body: Body, centre: complex) -> str:
     """Return why a body's instant centre is there, by the velocities of its first two joints."""
     one, other = body.joints[:2]
     arms = [puzzle.vector("position", name) - centre for name in (one, other)]
-    still = f"the point of {puzzle.name(body)} in that place stands still at this instant."
+    still = f"the point of {puzzle.name(body)} there is at rest at this instant."
     if abs((arms[0].conjugate() * arms[1]).imag) > CLEAR * abs(arms[0] * arms[1]):
         return f"The normals to the velocities of {one} and {other} meet there: {still}"
-    return f"Along the line through {one} and {other} the velocities fall to nothing there: {still}"
+    return f"Along the line through {one} and {other} the velocities fall to zero there: {still}"
 
 
 def _taken_for_pole(puzzle: Puzzle, name: str) -> str:

@@ -270,7 +270,7 @@ class _Tiles(NamedTuple):
                 items += self._crosses(made, column, row)
                 words = (
                     f"{self.part.label}: {column + 1} of {self.across} from the left, {row + 1} of {self.up} "
-                    "from the foot; lay the crosses over those of its neighbours"
+                    "from the foot; lay its crosses over those of its neighbours"
                 )
                 items.append(_words(made, words, complex(0, self.room[1] + 2)))
                 yield items
@@ -350,7 +350,7 @@ def _frame(made: MadeLinkage, number: str) -> Iterator[Item]:
     yield _words(made, "0", complex(-0.9, -9))
     yield _words(
         made,
-        f"{_RULER} mm: print at 100 %, and hold a ruler against it",
+        f"{_RULER} mm: print at 100 % and check with a ruler",
         complex(_RULER - 2.5, -9),
     )
     above = complex(0, made.sheet[1] - 2 * MARGIN - FOOT + 6)

@@ -31,13 +31,14 @@ _BY_HAND = ("heading", "turning", "dead centre", "input range", "fastest")
 """The kinds of questions that a model answers when it is turned by hand."""
 _KEY = "Key"
 _WAYS = {
-    "cardboard": "Print parts.pdf at 100 %, hold a ruler against the one at the foot, glue the pages on "
-    "cardboard, and cut. Pins are brads, or pieces of a round rod, {pin} mm thick. The heads of brads and "
-    "their bent legs count as nothing in the layers: where a part passes over one, take a rod instead.",
-    "laser": "Cut the sheet parts-{thick}mm, SVG or DXF: red lines are cut, blue words engraved. Pins are "
-    "pieces of a round rod, {pin} mm thick, glued into the ground, or into the lowest of their plates.",
-    "print": "Print each STL file lying as it is. A pin goes through from below, its head sunk in the lowest "
-    "of its plates; a cap, sunk in the highest, is pressed on. Where a plate has a slot there is neither.",
+    "cardboard": "Print parts.pdf at 100 % and check the scale at the foot of a page with a ruler. Glue the "
+    "pages onto cardboard and cut the parts out. The pins are brads, or pieces of round rod, {pin} mm thick; "
+    "where a part passes over a pin, use rod, as the head of a brad would be in the way.",
+    "laser": "Cut the sheet parts-{thick}mm (SVG or DXF): red lines are cut, blue text is engraved. The pins "
+    "are pieces of round rod, {pin} mm thick, glued into the ground or into the lowest of their plates.",
+    "print": "Print each STL file in the position in which it lies. A pin is put through from below, its "
+    "head sunk into the lowest of its plates, and a cap, sunk into the highest, is pressed on; a plate "
+    "with a slot has neither.",
 }
 
 
@@ -54,51 +55,52 @@ class Sheet:
 
     def document(self) -> str:
         """Return the page as HTML."""
-        return html.page(f"{self.made.scene.title}: to make", self._head(), self._chapters(), apart=(_KEY,))
+        return html.page(f"{self.made.scene.title}: a model", self._head(), self._chapters(), apart=(_KEY,))
 
     def _head(self) -> Iterator[str]:
         made, sizes = self.made, self.made.sizes
-        fewest = "fewer cannot turn" if made.fewest else "there may be a way with fewer"
+        fewest = "the fewest in which it turns" if made.fewest else "fewer might do"
         layers = f"{made.layer_words} ({fewest})" if made.layers else made.layer_words
         yield html.paragraph(
-            f"{len(made.plates)} flat parts of {sizes.thickness:g} mm, {made.size_words}, {layers}; bars "
-            f"{_mm(sizes.bar)} wide, holes {_mm(sizes.hole)}. Over the whole period nothing in a layer comes "
-            f"nearer to anything else than {_mm(sizes.gap)}."
+            f"{len(made.plates)} flat parts, {sizes.thickness:g} mm thick, {made.size_words}, {layers}. "
+            "Bars are "
+            f"{_mm(sizes.bar)} wide and holes {_mm(sizes.hole)}. During a whole cycle parts in one layer "
+            f"stay at least {_mm(sizes.gap)} apart."
         )
         words = {"pin": significant(sizes.pin, 3), "thick": f"{sizes.thickness:g}"}
         yield html.paragraph(_WAYS[made.way].format(**words))
 
     def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
         questions = self._questions()
-        yield "What it is", self._overview()
+        yield "The linkage", self._overview()
         yield "Parts", self._parts()
         yield "Layers", self._layers()
-        yield "Putting it together", self._steps()
-        yield "Predict, turn, measure", self._tasks(questions)
+        yield "Assembly", self._steps()
+        yield "Predict, turn and measure", self._tasks(questions)
         yield _KEY, self._key(questions)
 
     def _overview(self) -> Iterator[Part]:
         scene = self.made.scene
         pose = Figured(scene, _FIGURE, Look(hud=False, names=1, background=False), self.phase)
         where = driven_words(scene, scene.pose(self.phase, 0).coordinate)
-        words = f"The linkage, its {scene.info.input_name} at {where}: links and joints"
+        words = f"Links and joints, with the {scene.info.input_name} at {where}"
         yield FigurePart(pose.document(), words, 85)
         drawn = Drawn(self.made, self.phase, _PLAN)
-        yield _drawing(drawn.plan(), _PLAN, "The first pose: the parts from above, by layers", 100)
+        yield _drawing(drawn.plan(), _PLAN, "The parts from above, in the position of assembly", 100)
 
     def _parts(self) -> Iterator[Part]:
         made, sizes = self.made, self.made.sizes
-        heads = "no.", "part", "quantity", "layer", "holes", "slots for", "measure"
+        heads = "no.", "part", "number", "layer", "holes", "slots for", "check"
         plates = [(*self._row(number),) for number in range(len(made.plates))]
         yield html.table("Flat parts, numbered as in the figures", heads, plates)
         heads = (
             "pin",
-            "quantity",
-            "thick",
-            "long",
-            "from, to",
-            "stands",
-            "rings, marked pin and layer: outer width",
+            "number",
+            "diameter",
+            "length",
+            "from layer, to layer",
+            "fixed",
+            "rings, marked with pin and layer: outer diameter",
         )
         pins = [
             (
@@ -111,10 +113,10 @@ class Sheet:
             for pin in made.pins
         ]
         if pins:
-            yield html.table("Pins, and rings on them that keep layers apart", heads, pins)
+            yield html.table("Pins, and the rings on them that keep layers apart", heads, pins)
         for band in made.bands:
             ends = " and ".join(subscripted(name) for name in band.joints)
-            yield html.paragraph(f"A rubber band for the {band.name}, between {ends}, over all layers.")
+            yield html.paragraph(f"The {band.name} is a rubber band between {ends}, above all layers.")
 
     def _row(self, number: int) -> Iterator[str]:
         """Yield the cells of a plate's row."""
@@ -133,12 +135,12 @@ class Sheet:
             wheel = plate.teeth.wheel
             yield f"{wheel.teeth} teeth, module {significant(wheel.module, 4)} mm"
         else:
-            yield f"{_mm(far)} between its outermost holes" if far else ""
+            yield f"{_mm(far)} between the outermost holes" if far else ""
 
     def _layers(self) -> Iterator[Part]:
         side, exploded = (Drawn(self.made, self.phase, size) for size in (_SIDE, _EXPLODED))
-        yield _drawing(side.side(), _SIDE, "The layers from the side, in the first pose", 55)
-        yield _drawing(exploded.exploded(), _EXPLODED, "The layers lifted off each other", 85)
+        yield _drawing(side.side(), _SIDE, "The layers from the side, in the position of assembly", 55)
+        yield _drawing(exploded.exploded(), _EXPLODED, "The layers, drawn apart", 85)
 
     def _steps(self) -> Iterator[Part]:
         """Yield a picture for each step with what to do: the ground first, then layer by layer."""
@@ -158,12 +160,12 @@ class Sheet:
     def _laid_down(self, plates: Sequence[int]) -> str:
         """Return the sentence on laying down the ground, with its pins and the tongues in its slots."""
         made = self.made
-        words = [f"Lay down {made.label(0)}"]
+        words = [f"Lay {made.label(0)} flat"]
         if standing := [pin for pin in made.pins if pin.side == "below"]:
-            words.append(f"put {_named(standing)} up through it")
+            words.append(f"put {_named(standing)} through it from below")
         for number in plates[1:]:
             pins = [pin for pin in made.pins if number in pin.plates]
-            through = f", {_named(pins)} up through it" if pins else ""
+            through = f", with {_named(pins)} through it from below" if pins else ""
             words.append(f"lay {made.label(number)} into its slot{through}")
         return "; ".join(words) + "."
 
@@ -175,10 +177,10 @@ class Sheet:
         ringed = [pin for pin in there if any(ring.layer < layer for ring in pin.spacers)]
         words = f"Layer {layer}: {made.label(number)}"
         for more, some in (
-            (", with {} up through it", [pin for pin in pins if pin.low == layer]),
+            (", with {} through it from below", [pin for pin in pins if pin.low == layer]),
             (", over {}", [pin for pin in there if number not in pin.sliding]),
             (", its slot over {}", [pin for pin in there if number in pin.sliding]),
-            ("; before that, rings on {} in the layers that it passes", ringed),
+            ("; first put the rings on {} in the layers below", ringed),
             ("; close {}", [pin for pin in there if pin.high == layer and not pin.stuck]),
         ):
             if some:
@@ -188,14 +190,14 @@ class Sheet:
     def _remarks(self) -> Iterator[str]:
         """Yield the other sentences that are needed for assembly."""
         made, drive = self.made, self.made.scene.linkage.drive
-        moved = "Turn it by" if drive.coordinate.is_angle else "Push it at"
-        yield f"{moved} {subscripted(drive.joint)}; hold it against the first pose."
+        moved = "Turn" if drive.coordinate.is_angle else "Push"
+        yield f"{moved} the model at {subscripted(drive.joint)} and compare it with Figure 2."
         if any(plate.role == "slider" and made.layer[n] == 0 for n, plate in enumerate(made.plates)):
-            yield "Tongues lie loose in the slots of the ground: a card under it keeps them in."
+            yield "The tongues lie loose in the slots of the ground; a card under the ground keeps them in."
         if any(plate.teeth for plate in made.plates):
-            yield "Put wheels into mesh with all cranks as in the first pose: a tooth on is another linkage."
+            yield "Mesh the wheels with all cranks as in Figure 2: a tooth further gives another linkage."
         if made.scene.info.change_points:
-            yield "At its change points it can go on in two ways: there a finger leads it."
+            yield "At a change point it can continue in two ways; guide it there with a finger."
 
     def _questions(self) -> list[QuizQuestion]:
         """Return questions that the model answers; none where no question can be made."""
@@ -221,11 +223,11 @@ class Sheet:
             for n, one in enumerate(questions, start=1)
         ]
         if rows:
-            heads = "", "where", "question", "answers"
-            yield html.table("Predict before it is turned, then turn it there and look", heads, rows)
+            heads = "", "position", "question", "answers"
+            yield html.table("Predict first; then turn the model to the position and look", heads, rows)
         blank = [(what, "", "") for what, _ in self._measures()]
         if blank:
-            columns = "what", "measured", "worked out from its lengths"
+            columns = "quantity", "measured", "calculated from the lengths"
             yield html.table("Measure on the model", columns, blank)
 
     def _key(self, questions: Sequence[QuizQuestion]) -> Iterator[Part]:
@@ -234,9 +236,9 @@ class Sheet:
             for n, one in enumerate(questions, start=1)
         ]
         if rows:
-            yield html.table("Predictions", ("", "right", "why"), rows)
+            yield html.table("Predictions", ("", "answer", "reason"), rows)
         if measures := [*self._measures()]:
-            yield html.table("Measures of the model", ("what", "value"), measures)
+            yield html.table("Measures of the model", ("quantity", "value"), measures)
 
     def _measures(self) -> Iterator[tuple[str, str]]:
         """Yield the measures that can be taken on the model, with their values."""
@@ -246,7 +248,10 @@ class Sheet:
         if info.swing is not None:
             yield f"swing of {info.output_name}", f"{math.degrees(info.swing.stroke):.1f}°"
         if info.time_ratio is not None:
-            yield "the input's way for the slow stroke, over that for the quick one", f"{info.time_ratio:.2f}"
+            yield (
+                "time ratio: the input's angle for the slow stroke over that for the quick one",
+                f"{info.time_ratio:.2f}",
+            )
         if info.transmission_angle is not None:
             least, most = (math.degrees(angle) for angle in info.transmission_angle)
             yield "least and greatest transmission angle", f"{least:.0f}°, {most:.0f}°"

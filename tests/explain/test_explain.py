@@ -17,13 +17,14 @@ from tex import needs_tex
 
 import linkanim.explain.documents
 from linkanim.cli import main
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document, exercise
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, body_style, document, exercise
 from linkanim.explain.formula import LATEX, Formula, Symbol, typeset
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.steps import Given, System, ValueLine
 from linkanim.explain.variant import variant
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import RRR
+from linkanim.paper.lettering import FAMILY
 from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import figure
 from linkanim.picture.text import subscripted
@@ -175,9 +176,9 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
 WRITTEN = [
     r"$\mathbf{R}_{2} + \mathbf{R}_{3} = \mathbf{R}_{1} + \mathbf{R}_{4}$",
     r"$x_{A} = r_{2} \, \cos \theta_{2} = 50 \cdot \cos 60^{\circ} = 25.00000\,\mathrm{mm}$",
-    "By the chain rule each rate is its coefficient times the input's rate.",
-    "By the chain rule once more: the second coefficient times the square of the input's rate, and the first "
-    "times its acceleration, if it has one.",
+    "By the chain rule, a velocity is the first coefficient times the velocity of the input.",
+    "By the chain rule, an acceleration is the second coefficient times the square of the velocity of the "
+    "input.",
 ]
 
 
@@ -189,7 +190,7 @@ def test_a_row_has_the_letters_then_the_numbers_and_each_chapter_says_what_it_do
 def test_at_a_limit_it_says_that_no_rates_follow() -> None:
     found = solution(_request("double-rocker", 0.0))
     assert found.singular
-    assert "No rates follow" in document(found, MARKDOWN)
+    assert "are not independent" in document(found, MARKDOWN)
     assert np.isfinite([result.value.value for result in found.results]).all()
 
 
@@ -457,8 +458,8 @@ def test_a_cylinder_that_drives_is_a_loop_and_where_none_closes_it_says_so() -> 
     places = found.request.scene.pose(math.radians(100.0), 0).position
     assert abs(cylinder) == pytest.approx(math.dist(places["G"], places["H"]))
     text = document(solution(_request("cardan-gears", 50.0)), MARKDOWN)
-    assert "There is none to close" in text
-    assert "Primes are derivatives by the input" in text
+    assert "There is no loop to close" in text
+    assert "Kinematic coefficients are derivatives with respect to the input" in text
     assert "Each loop" not in text
     slider = {
         "ground": {"O": [0, 0]},
@@ -511,7 +512,7 @@ def test_digits_that_a_short_bar_needs_leave_a_rod_across_its_guide_there() -> N
 
 def test_rates_miss_the_differentiated_loops_by_rounding_alone() -> None:
     text = document(solution(PoseRequest(load("press"), "angle", 1.5, 10.0)), MARKDOWN)
-    found = re.findall(r"these rates leave (\S+) mm/s²? at the most", text)
+    found = re.findall(r"a residual of at most (\S+) mm/s²?\.", text)
     assert len(found) == 2
     sizes = [
         value.replace("×10", "e").translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")) for value in found
@@ -539,7 +540,7 @@ def test_all_results_stand_at_the_end_but_not_of_an_exercise() -> None:
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_a_result_is_listed_in_the_digits_that_are_right(name: str) -> None:
-    fewer = "one that is small beside its like to fewer"
+    fewer = "fewer where it is small beside others of its kind"
     for degrees in (0.0, 73.1, 180.0, 251.7):
         found = solution(_request(name, degrees))
         text = document(found, MARKDOWN)
@@ -657,7 +658,7 @@ def test_a_swing_over_two_drive_periods_has_its_time_ratio_in_words() -> None:
     scene = scene_from(written, name="my", where="my.toml")
     text = document(solution(PoseRequest(scene, "phase", 0.7, 2.0)), MARKDOWN)
     assert scene.info.true_period == 2
-    assert "Its true period is 2 drive periods." in text
+    assert "The motion repeats after 2 periods of the input." in text
     assert "more than once" not in text
 
 
@@ -670,7 +671,7 @@ def test_the_input_turns_back_at_derived_angles(lengths: tuple[int, ...]) -> Non
     sides = dict(zip(("ground", "crank", "coupler", "rocker"), lengths, strict=True))
     document = {"four-bar": sides | {"ground_angle": "20 deg"}}
     found = solution(PoseRequest(scene_from(document, name="my", where="my.toml"), "phase", 0.7, 2.0))
-    info, lines = found.request.scene.info, _lines_of(found, "How far the input goes")
+    info, lines = found.request.scene.info, _lines_of(found, "Range of the input")
     angles = [value for name, value in lines.items() if name.startswith("θ")]
     assert bool(angles) is not info.full_turn
     for end in () if info.full_turn else map(math.degrees, info.input_range):
@@ -680,17 +681,17 @@ def test_the_input_turns_back_at_derived_angles(lengths: tuple[int, ...]) -> Non
 def test_pivots_in_one_place_to_the_digits_shown_ask_for_no_division_by_zero() -> None:
     written = {"four-bar": {"ground": 1e-10, "crank": 50_000, "coupler": 85_000, "rocker": 80_000}}
     found = solution(PoseRequest(scene_from(written, name="my", where="my.toml"), "phase", 3.3, 2.0))
-    assert not any(name.startswith(("k", "ψ")) for name in _lines_of(found, "How far the input goes"))
+    assert not any(name.startswith(("k", "ψ")) for name in _lines_of(found, "Range of the input"))
     text = document(found, MARKDOWN)
-    assert "To the digits shown A is as far from O4 at every angle of the crank" in text
-    assert "So the crank turns fully." in text
+    assert "In the digits shown A is equally far from O4 at every crank angle" in text
+    assert "The crank turns fully." in text
 
 
 @pytest.mark.parametrize("offset", [0, 25, -25])
 def test_a_crank_longer_than_its_rod_turns_back_where_the_rod_stands_square(offset: int) -> None:
     written = {"slider-crank": {"crank": 80, "rod": 60, "offset": offset}}
     found = solution(PoseRequest(scene_from(written, name="my", where="my.toml"), "phase", 0.7, 2.0))
-    angles = [v for name, v in _lines_of(found, "How far the input goes").items() if name.startswith("θ")]
+    angles = [v for name, v in _lines_of(found, "Range of the input").items() if name.startswith("θ")]
     for end in map(math.degrees, found.request.scene.info.input_range):
         assert min(abs(math.remainder(end - angle, 360)) for angle in angles) < 1e-3
 
@@ -786,3 +787,23 @@ def test_its_sentences_have_true_minus_signs(
     prose = re.sub(r"\$[^$]*\$", "", capsys.readouterr().out)
     assert says in prose
     assert not re.search(r"(?<!\w)-\d", prose)
+
+
+def test_a_page_sets_its_text_in_a_face_of_which_its_pictures_bring_no_parts() -> None:
+    # a picture carries the letters that it uses: the others of a text would be in another face
+    families = re.findall(r"font: [\d.]+px/[\d.]+ ([^;]*);", body_style("16px/1.5", 56))
+    assert families
+    assert not any(FAMILY in family for family in families)
+
+
+NOT_FOR_A_CLASS = ("scene file", "scene states", "the class says", "'s way s", "But for whole turns", "Here ")
+"""Words of the program, or of no textbook, that stood on sheets."""
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_sheet_speaks_as_a_textbook_does(name: str) -> None:
+    text = document(solution(_request(name, 73.1)), MARKDOWN)
+    assert [words for words in NOT_FOR_A_CLASS if words in text] == []
+    # an article fits the word behind it
+    assert not re.search(r"\ba (?:antip|eight|input|offset|inv)|\ban (?:crank|six|four|slider|rocker)", text)

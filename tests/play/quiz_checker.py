@@ -151,7 +151,7 @@ class Checked:
             answers = [WAYS[one.text] for one in self.question.answers]
             if len(answers) != 2 or answers[0] != -answers[1]:
                 yield "its guide has two ways only"
-        yield from self.told(r"with (\S+) \S+/s", abs(velocity))
+        yield from self.told(r" at (\S+) \S+/s", abs(velocity))
 
     @staticmethod
     def apart(one: complex, other: complex) -> float:
@@ -909,10 +909,10 @@ KEYS: dict[str, Held] = {
     "precision point": Checked.precision_point,
     "pole": Checked.pole_of_poses,
 }
-_POWERS = {r"what (.*) does": Checked.with_power}
+_POWERS = {r"how (.*) changes": Checked.with_power}
 MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
     "turning": {
-        r"the input's direction, handed on along the chain": Checked.input_way,
+        r"the input's direction, passed on along the chain": Checked.input_way,
         r"the way it turns when the input runs backwards": Checked.backwards,
     },
     "fastest": {
@@ -965,7 +965,9 @@ MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
         r"sliding alone taken for a Coriolis term": Checked.no_guide_turns,
     },
     "slow way": {
-        r"the quick way taken for the slow one": partial(Checked.slow_told_as, share=lambda slow: 360 - slow),
+        r"the quick stroke taken for the slow one": partial(
+            Checked.slow_told_as, share=lambda slow: 360 - slow
+        ),
         r"half a turn times the time ratio": partial(
             Checked.slow_told_as, share=lambda slow: 180 * slow / (360 - slow)
         ),
@@ -978,7 +980,7 @@ MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
     },
     "pole": {
         r"the turn taken the other way round": Checked.other_way_round_about,
-        r"the middle of the way, about which it would be turned by half a turn": Checked.middle_of_way,
+        r"the middle between the places, about which it would turn by half a turn": Checked.middle_of_way,
         r"the pole of poses (\d) and (\d)": Checked.pole_of_others,
     },
 }

@@ -47,7 +47,7 @@ def test_a_slider_that_nothing_hangs_on_is_laid_into_its_slot() -> None:
     }
     made = make(scene_from(document, name="alone", where="alone.toml"))
     text = Sheet(made).document()
-    assert "Lay down 1 ground; lay 2 slider B into its slot." in text
+    assert "Lay 1 ground flat; lay 2 slider B into its slot." in text
     assert "all within the ground" in text
     # it has no pin, and nothing to be measured: no table of nothing
     assert "<tbody></tbody>" not in re.sub(r"\s", "", text)
