@@ -28,7 +28,7 @@ from linkanim.picture.layout import layout, with_side
 from linkanim.picture.quantities import series_of
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
-from linkanim.player.shown import value_words
+from linkanim.player.listing import value_words
 from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene

@@ -45,7 +45,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.play.kinds import KINDS
 from linkanim.play.question import Puzzle
-from linkanim.player.shown import value_words
+from linkanim.player.listing import value_words
 from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene

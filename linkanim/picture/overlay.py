@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, Literal, Self, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
@@ -341,7 +341,7 @@ class Browsing:
         behind = place - len(self.entries)
         return self.own[behind] if 0 <= behind < len(self.own) else None
 
-    def sifted(self, sieve: str) -> Browsing:
+    def sifted(self, sieve: str) -> Self:
         """Return the shelf with another sieve, and the best of what is found chosen."""
         other = replace(self, sieve=sieve, top=0)
         return replace(other, chosen=(*other.found, self.chosen)[0]) if sieve else other

@@ -22,11 +22,12 @@ from linkanim.play.games import (
     members,
     titled,
 )
+from linkanim.player import shelving
 from linkanim.player.action import Action
 from linkanim.player.actions import leave, with_scene
 from linkanim.player.building import build, left
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.edits import carry, drop, grab, open_shelf
+from linkanim.player.edits import carry, drop, grab
 from linkanim.player.pencil import pencil
 from linkanim.player.state import State, with_effect, with_toast
 from linkanim.scenes import chapters, load, names
@@ -209,7 +210,7 @@ class Title:
         if action.name in _HELD:
             return _HELD[action.name](state, action.value)
         if action.name == "shelf":
-            return open_shelf(leave(state), None)
+            return shelving.toggle(leave(state), None)
         if action.name == "pencil":
             return _through(state, [door.name for door in DOORS].index("path"))
         if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):

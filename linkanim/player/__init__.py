@@ -20,6 +20,8 @@ From the ground up; a module imports from those before it only:
     framing    the picture that fits a state, and the change to the next one
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse
+    listing    a mode: the list of quantities, or of commands
+    shelving   a mode: the shelf
     naming     a mode: the name of the file to be written
     taking     a mode: how a recording is made, and where it goes
     modes      all modes, and the one table of their keys

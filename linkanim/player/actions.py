@@ -223,12 +223,10 @@ def back(state: State, _: None) -> State:
 
     From a mechanism it leads back to the title, if the window opened on the title.
     """
+    if state.help and not state.keys.alone:
+        return replace(state, help=False)
     if state.top:
         return state.top.closed(state)
-    if state.help:
-        return replace(state, help=False)
-    if state.listing or state.browsing:
-        return replace(state, listing=None, browsing=None)
     if state.sketch and not state.editing.open:
         return posing.let_go(state) or left(state)
     if state.building:
@@ -297,8 +295,6 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 BESIDE = BESIDE_GAMES | {"take_toast", "take_into", "stir", "menu", "note", "hint", "pad", "close"}
 """Actions that are the window's own while a game is on; all others are handed to the game."""
-_ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
-"""Actions that belong to a list while one is open over a game."""
 
 
 def play(state: State, words: str) -> State:
@@ -308,8 +304,8 @@ def play(state: State, words: str) -> State:
     game = state.games(words)
     if state.beneath is None:
         state = drop(left(state), None)
-        state = replace(state, beneath=replace(state, help=False, listing=None, browsing=None))
-    bare = replace(state, listing=None, browsing=None, glide=None, home=None, toast=None, layers=None)
+        state = replace(state, beneath=replace(state.unlisted, help=False))
+    bare = replace(state.unlisted, glide=None, home=None, toast=None, layers=None)
     bare = replace(bare, also=(), place_typed="", chip=None)
     editing = Editing()
     return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
@@ -324,7 +320,7 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    resumed = replace(resumed, kiosk=state.kiosk, take=state.take, modes=state.modes)
+    resumed = replace(resumed, kiosk=state.kiosk, take=state.take, modes=state.unlisted.modes)
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -551,22 +547,9 @@ ACTIONS: Mapping[str, Rule] = {
     "lift": Rule(rules.whole, making.lift),  # steps
     "slide": Rule(rules.whole, making.slide),  # the step of the slider that is shown
     "back": Rule(rules.nothing, back),
-    "list": Rule(
-        rules.one_of(None, "below"), edits.list_, taped=False
-    ),  # "below": for a chart below the others
-    "menu": Rule(
-        rules.words_or_none, edits.menu, taped=False
-    ),  # some commands, as `commands.menu_of` has them
     "take_toast": Rule(rules.nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
     "stir": Rule(rules.nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
-    "shelf": Rule(rules.nothing, edits.open_shelf, taped=False),
-    "files": Rule(rules.text, edits.files, taped=False),  # scene files with their dates, one a line
     "open_file": Rule(rules.text, effect("open"), taped=False),
-    "move": Rule(rules.whole, edits.move, taped=False),  # rows of the list, or places on the shelf
-    "point": Rule(rules.whole, edits.point, taped=False),  # the place on the shelf
-    "top": Rule(rules.whole, edits.top, taped=False),  # the shelf's first visible row
-    "sift": Rule(rules.text, edits.sift, taped=False),
-    "unsift": Rule(rules.nothing, edits.unsift, taped=False),
     "screenshot": Rule(rules.nothing, shot("screenshot"), taped=False),
     "svg": Rule(rules.nothing, shot("svg"), taped=False),
     "share": Rule(rules.nothing, effect("share"), taped=False),
@@ -658,15 +641,15 @@ def aged(state: State) -> State:
 
 def carried(state: State, action: Action) -> State:
     """Return the state with one action carried out; unchanged, with a message, where the solver fails."""
-    rule = ACTIONS[action.name]
     if action.name not in _NOT_BY_HAND:
         state = replace(state, touched=state.frame)
         if state.by_itself:
             return leave(state)
-    own = state.top is not None and action.name in (*state.top.actions, "back")
-    listed = own or (action.name in _ON_A_LIST and state.listing is not None)
-    if state.game and not listed and action.name not in BESIDE | _SHEETS:
+    own = state.top.actions if state.top else {}
+    beside = BESIDE | _SHEETS | {*own, *(["back"] if own else [])}
+    if state.game and action.name not in beside:
         return _in_a_game(state, state.game, action)
+    rule = own.get(action.name) or ACTIONS[action.name]
     if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:
         return state
     if state.game and action.name in _SHEETS:

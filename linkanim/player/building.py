@@ -96,7 +96,7 @@ def numbers(state: State, _: None) -> State:
     if not rows_of_all(sheet.building.draft):
         return with_toast(state, BLANK)
     editing = cleared(replace(state.editing, drafts=()), open=not state.editing.open)
-    return replace(state, editing=editing, listing=None, browsing=None, held=None)
+    return replace(state.unlisted, editing=editing, held=None)
 
 
 def new(state: State, _: None) -> State:
@@ -130,7 +130,7 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
     elif building.draft.places:
         sheet = replace(sheet, home=figure(state.scene).box)
     look = replace(state.look, unit=None, zoom=1.0, pan=(0.0, 0.0), chart=None)
-    bare = replace(state, editing=Editing(), listing=None, browsing=None, glide=None, toast=None, look=look)
+    bare = replace(state.unlisted, editing=Editing(), glide=None, toast=None, look=look)
     return _shown(replace(bare, sheet=sheet, faded=state.frame), building)
 
 
@@ -219,7 +219,7 @@ def closing(state: State) -> State | None:
 
 def put(state: State, place: int) -> State:
     """Put on a mechanism of the shelf, or an empty sheet."""
-    return new(replace(state, browsing=None), None) if place == NEW else put_on(state, place)
+    return new(state.unlisted, None) if place == NEW else put_on(state, place)
 
 
 def _shown(state: State, building: Building, *, live: bool = False) -> State:

@@ -6,9 +6,10 @@ A command's name, its key and its action come from the table.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
-from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, sifted
 from linkanim.player.action import Action
 from linkanim.player.clock import FASTEST, SLOWEST
 from linkanim.player.keys import (
@@ -25,7 +26,7 @@ from linkanim.player.keys import (
     group_key,
     row_actions,
 )
-from linkanim.player.state import BLANK, STIR_FRAMES, Entries, Game, ListRow, State
+from linkanim.player.state import BLANK, STIR_FRAMES, Game, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
 
@@ -53,7 +54,7 @@ _SCENE = (
     BarEntry("add", Action("list", "below"), 4, on_chart=True),
     BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
-_LISTED = (BACK_BAR, *_SCENE)
+LISTED_BAR = (BACK_BAR, *_SCENE)
 """In a list the way back stands where the way home stands without: the other buttons stay where they are."""
 _CONSTRUCTED = {
     "edit": BarEntry("before", Action("construct", -1), 3, leads=True),
@@ -95,9 +96,7 @@ _POSES = (
 _HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
     "play": (HOME_BAR._replace(rank=0), *_SCENE),
     "paused": (HOME_BAR._replace(rank=0), *_SCENE),
-    "edit": tuple(_BUILD_ON if one.icon == "build" else one for one in _LISTED),
-    "list": _LISTED,
-    "shelf": (BACK_BAR, HOME_BAR, *LAST_BAR),
+    "edit": tuple(_BUILD_ON if one.icon == "build" else one for one in LISTED_BAR),
     "pencil": _PENCIL,
     "poses": _POSES,
     **{"build": _SHEET, "numbers": _SHEET},
@@ -136,7 +135,7 @@ def pressed(state: State, number: int) -> tuple[Action, ...]:
 def _entries(state: State) -> tuple[BarEntry, ...]:
     """Return the commands on the bar."""
     if state.constructed and state.mode in ("play", "paused"):
-        return tuple(_CONSTRUCTED.get(one.icon, one) for one in _LISTED)
+        return tuple(_CONSTRUCTED.get(one.icon, one) for one in LISTED_BAR)
     return state.top.bar if state.top else _HANDLES[state.mode]
 
 
@@ -206,6 +205,33 @@ def lack(state: State, action: Action) -> str:
 
 
 # Menus: all commands, or those of the thing under the hand.
+
+
+class ListRow(NamedTuple):
+    """A row of a list: its words, the key that does the same, and its action."""
+
+    words: str
+    key: str
+    action: Action
+
+
+@frozen
+class Entries:
+    """Rows under a title, and the letters that filter them; a folder may give a hundred thousand rows."""
+
+    title: str
+    entries: tuple[ListRow, ...]
+    sieve: str = ""
+
+    @cached_property
+    def found(self) -> tuple[ListRow, ...]:
+        """The rows that have all the sieve's words."""
+        return sifted({one: (one.words, one.key) for one in self.entries}, self.sieve)
+
+    @cached_property
+    def rows(self) -> tuple[tuple[str, str], ...]:
+        """The found rows as a list shows them: their words and keys."""
+        return tuple((one.words, one.key) for one in self.found)
 
 
 def menu_of(state: State, what: str | None) -> Entries | None:
@@ -340,7 +366,7 @@ def _of_thing(state: State, kind: str, name: str) -> Iterator[ListRow]:
 
 def _shows(title: str) -> Callable[[State], bool]:
     """Return the function that tells whether the list of a group of commands is open."""
-    return lambda state: bool(state.listing and state.listing.others and state.listing.others.title == title)
+    return lambda state: state.top is not None and state.top.title == title
 
 
 _ICONS: Mapping[str, Callable[[State], str]] = {

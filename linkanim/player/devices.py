@@ -17,6 +17,7 @@ from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple
+from linkanim.picture.overlay import OwnFile
 from linkanim.player.action import Action
 from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import Bind, ModeKeys, Press, bind_of, button_name, hat_name, key_of
@@ -395,10 +396,11 @@ class Mouse:
         if gesture.kind == "down" and screen.on_toast(*self.at):
             self.drag = "bar"
             return (Action("take_toast"),)
-        if screen.state.help and self.drag is None and not screen.state.browsing:
+        if screen.state.help and self.drag is None and not screen.over.shelf:
             return self._on_the_help(screen) if gesture.kind == "down" else ()
-        if screen.state.browsing:
-            return self._on_the_shelf(gesture, screen)
+        top = screen.state.top
+        if top and (found := top.mouse(gesture, self, screen)) is not None:
+            return found
         if self.drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self.at)):
             return self._on_the_slider(gesture, screen)
         modes = {
@@ -408,8 +410,8 @@ class Mouse:
             "pencil": self._of_the_pencil,
             "game": self._in_a_game,
         }
-        top, mode = screen.state.top, modes.get(screen.state.mode)
-        found = top.mouse(gesture, self, screen) if top else mode(gesture, screen) if mode else None
+        mode = modes.get(screen.state.mode)
+        found = mode(gesture, screen) if mode else None
         found = self._on_a_list(gesture, screen) if found is None else found
         return self._on_the_picture(gesture, screen) if found is None else found
 
@@ -417,7 +419,7 @@ class Mouse:
         """Return the action that opens the list for what is under the mouse, or for all, or closes it."""
         if screen.state.keys.alone:
             return ()
-        if screen.state.listing:
+        if screen.state.mode == "list":
             return (Action("back"),)
         if screen.button_at(*self.at) is not None:
             return (Action("menu"),)
@@ -539,37 +541,18 @@ class Mouse:
         """Return the actions on the open list of a click, the wheel or a dragged value; None off it."""
         if self.drag == "row" and gesture.kind in ("move", "up"):
             return self._pulled(gesture, screen)
-        if (further := self._scrolled(gesture, screen)) is not None:
-            return further
         row = screen.row_at(*self.at) if self.drag in (None, "row") else None
-        if row is None:
+        if row is None or screen.state.mode not in ("edit", "numbers"):
             return None
-        editing = screen.state.mode in ("edit", "numbers")
         if gesture.kind == "wheel":
             # A long list scrolls below a mouse that stands still, so the row where the wheel began is kept.
             self._turned = row if self._turned is None else self._turned
-            return self._wheeled(gesture.notches, self._turned, editing=editing)
+            return self._wheeled(gesture.notches, self._turned)
         self._turned = None
         if gesture.kind != "down" or row < 0:
             return ()
-        if not editing:
-            return (Action("tick" if screen.on_box(self.at[0]) else "pick", row),)
         self.drag, self.steps = "row", 0
         return (Action("grab_row", row),)
-
-    def _scrolled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return the actions of a gesture on the open list's scroll bar; None off it."""
-        held = self.drag == "scroll"
-        if held and gesture.kind == "up":
-            self.drag = None
-            return ()
-        if gesture.kind not in (("move",) if held else ("down",)) or self.drag not in (None, "scroll"):
-            return None
-        further = screen.scrolled_by(*self.at, held=held)
-        if further is None:
-            return () if held else None
-        self.drag = "scroll"
-        return (Action("move", further),) if further else ()
 
     def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a click in a game: the answer that is there, else to go on.
@@ -584,11 +567,11 @@ class Mouse:
             return None
         return (Action("next") if option is None else Action("option", option),)
 
-    def _wheeled(self, notches: int, row: int, *, editing: bool) -> tuple[Action, ...]:
+    def _wheeled(self, notches: int, row: int) -> tuple[Action, ...]:
         """Return the nudges of the value under the mouse; elsewhere in a list, the choice of another row."""
-        if editing and row >= 0:
+        if row >= 0:
             return (Action("grab_row", row), Action("drop"), Action("nudge", notches * _coarser()))
-        return (Action("choose" if editing else "move", -notches),)
+        return (Action("choose", -notches),)
 
     def _pulled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Return the change of the held row's value, by how far the mouse has moved to the right."""
@@ -600,7 +583,7 @@ class Mouse:
 
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list under the mouse; None before the mouse was seen."""
-        if not self._seen or self.drag not in (None, "row") or screen.state.browsing:
+        if not self._seen or self.drag not in (None, "row") or screen.over.shelf:
             return None
         found = screen.option_at if screen.state.mode == "game" else screen.row_at
         row = found(*self.at)
@@ -608,7 +591,7 @@ class Mouse:
 
     def hovered(self, screen: Screen) -> str | None:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
-        if not self._seen or screen.state.browsing or self.drag in ("pan", "chart", "row"):
+        if not self._seen or screen.over.shelf or self.drag in ("pan", "chart", "row"):
             return None
         on_a_list = self.drag is None and screen.row_at(*self.at) is not None
         if on_a_list or screen.state.mode in ("pencil", "poses", "build", "numbers", "layers"):
@@ -627,39 +610,6 @@ class Mouse:
     def _is_at_pin(self, screen: Screen) -> bool:
         pin = screen.crank_pin()
         return max(abs(self.at[0] - pin[0]), abs(self.at[1] - pin[1])) <= _REACH * screen.size[1]
-
-    def _on_the_shelf(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Choose the mechanism under the mouse; a click shows it, and a click elsewhere closes the shelf.
-
-        A drag scrolls: on the pictures these follow the hand, beside them the scroll bar does.
-        """
-        browsing, (x, y), drag = screen.state.browsing, self.at, self.drag
-        assert browsing
-        grid = screen.shelf_grid(browsing)
-        moves = self.far > _STILL * screen.size[1]
-        match gesture.kind:
-            case "wheel":
-                return (Action("scroll", -gesture.notches),)
-            case "down":
-                on_track = grid.track is not None and grid.track.holds(x, y)
-                self.drag, self.steps = "scroll" if on_track else "shelf", grid.top
-                return self._scrolled_to(grid.led_to(y), grid.top) if on_track else ()
-            case "up":
-                self.drag, place = None, grid.at(x, y)
-                if drag != "shelf" or moves:
-                    return ()
-                return (Action("shelf") if place is None else Action("put", place),)
-        if drag == "scroll":
-            return self._scrolled_to(grid.led_to(y), grid.top)
-        if drag == "shelf":
-            to = self.steps + round((self.begun[1] - y) / grid.step)
-            return self._scrolled_to(to, grid.top) if moves else ()
-        place = grid.at(x, y)
-        return () if place is None else (Action("point", place),)
-
-    @staticmethod
-    def _scrolled_to(row: int, top: int) -> tuple[Action, ...]:
-        return (Action("scroll", row - top),) if row != top else ()
 
     def _of_the_pencil(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw, or drag what is under the pencil; None where the mouse acts as without a pencil."""
@@ -715,7 +665,7 @@ class Mouse:
 
     def _of_the_numbers(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Act on the list of dimensions where the mouse is on it, else on the sheet."""
-        found = self._on_a_list(gesture, screen) if self.drag in (None, "row", "scroll") else None
+        found = self._on_a_list(gesture, screen) if self.drag in (None, "row") else None
         return self._of_the_sheet(gesture, screen) if found is None else found
 
     def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
@@ -810,6 +760,9 @@ class Outside(Protocol):
 
     def resolved(self, action: Action) -> Iterator[Action]:
         """Yield an action; one that depends on what is visible or in the folder is resolved first."""
+
+    def scene_files(self) -> tuple[OwnFile, ...]:
+        """Return the scene files in the current folder."""
 
     def proposed_places(self) -> str:
         """Return the current folder and places in it to write to, one a line."""

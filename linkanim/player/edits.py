@@ -10,22 +10,18 @@ from decimal import Decimal
 from linkanim.build.building import Step
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
-from linkanim.picture.overlay import Browsing, OwnFile
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
-from linkanim.player.commands import menu_of
 from linkanim.player.state import (
     Edited,
     Editing,
     Grasp,
     Held,
-    Listing,
     State,
     check_of_turning,
     chosen,
     cleared,
     fresh,
     glide,
-    listed,
     loss_of_turning,
     nothing_begun,
     proved,
@@ -70,7 +66,7 @@ def select(state: State, place: int) -> State:
     members = all_[chapter] if chapter else next(iter(all_.values()))
     if place >= len(members) or members[place] not in state.shelf:
         return state
-    return replace(put_on(state, state.shelf.index(members[place])), browsing=None)
+    return put_on(state, state.shelf.index(members[place]))
 
 
 def closure(state: State, _: None) -> State:
@@ -126,7 +122,7 @@ def put_on(state: State, place: int) -> State:
     scene = proved(was.scene if was else load(entry) if isinstance(entry, str) else entry, 0.0)
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
-    bare = replace(state, listing=None, held=None, sketch=None, glide=None, turned=None, faded=state.frame)
+    bare = replace(state.unlisted, held=None, sketch=None, glide=None, turned=None, faded=state.frame)
     bare = replace(bare, arrived=state.frame)
     editing = replace(was.editing if was else Editing(), open=state.editing.open)
     others = tuple(one for one in kept if one is not was)
@@ -149,103 +145,13 @@ def _kept_chart(state: State, scene: Scene) -> str | None:
     return ",".join(token for token in tokens if token in scene.quantities) or None
 
 
-def list_(state: State, below: str | None) -> State:
-    """Open the list of quantities, at the charted one, or close it.
-
-    For another chart `below` it opens at the next quantity that is not charted.
-    """
-    if state.listing:
-        return replace(state, listing=None)
-    tokens = listed(state.scene, "")
-    charted = chart_tokens(state.scene, state.look.chart)
-    at = next((tokens.index(token) for token in charted if token in tokens), 0)
-    if below:
-        turned = (n % len(tokens) for n in range(at, at + len(tokens)))
-        at = next((n for n in turned if tokens[n] not in charted), at)
-    return replace(state, listing=Listing(at, adds=bool(below)), browsing=None)
-
-
-def open_shelf(state: State, _: None) -> State:
-    """Open the shelf, or close it."""
-    if state.browsing:
-        return replace(state, browsing=None)
-    return replace(state, listing=None, browsing=Browsing(state.shelf, state.place, state.frame))
-
-
-def move(state: State, further: int) -> State:
-    """Choose the row `further` places on among those found; the list has ends, the shelf wraps around."""
-    if state.browsing:
-        found = state.browsing.found
-        if state.browsing.chosen not in found:
-            return state
-        chosen = found[(found.index(state.browsing.chosen) + further) % len(found)]
-        return replace(state, browsing=replace(state.browsing, chosen=chosen))
-    if state.listing is None:
-        return state
-    last = max(len(state.listing.found(state.scene)) - 1, 0)
-    chosen = min(max(state.listing.chosen + further, 0), last)
-    return replace(state, listing=replace(state.listing, chosen=chosen))
-
-
-def point(state: State, place: int) -> State:
-    """Choose a place on the shelf."""
-    if state.browsing is None or place not in state.browsing.found:
-        return state
-    return replace(state, browsing=replace(state.browsing, chosen=place))
-
-
-def top(state: State, row: int) -> State:
-    """Scroll the shelf to a row."""
-    return replace(state, browsing=state.browsing and replace(state.browsing, top=row))
-
-
-def sift(state: State, text: str) -> State:
-    """Add letters to what the list, or the shelf, is searched for; the list goes to its top."""
-    if state.browsing:
-        longer = (state.browsing.sieve + text)[:_LONGEST]
-        return replace(state, browsing=state.browsing.sifted(longer))
-    return _relisted(state, state.listing.sieve + text) if state.listing else state
-
-
-def unsift(state: State, _: None) -> State:
-    """Take the last letter off what the list, or the shelf, is searched for; the list goes to its top."""
-    if state.browsing:
-        return replace(state, browsing=state.browsing.sifted(state.browsing.sieve[:-1]))
-    return _relisted(state, state.listing.sieve[:-1]) if state.listing else state
-
-
-def _relisted(state: State, sieve: str) -> State:
-    assert state.listing
-    return replace(state, listing=state.listing.sifted(sieve[:_LONGEST]))
-
-
-def files(state: State, lines: str) -> State:
-    """Put the user's own files on the open shelf: one a line, its name, a tab and its date."""
-    own = tuple(OwnFile(*line.split("\t")[:2]) for line in lines.split("\n") if "\t" in line)
-    opened = state if state.browsing else open_shelf(state, None)
-    return replace(opened, browsing=opened.browsing and replace(opened.browsing, own=own))
-
-
-def menu(state: State, group: str | None) -> State:
-    """Open the list of the mode's commands, all or a group of them; close it where it is open.
-
-    Another list than the one that is open takes its place.
-    """
-    before = state.listing.others if state.listing else None
-    state = replace(state, listing=None, browsing=None)
-    opened = menu_of(state, group) if not state.keys.alone else None
-    if opened is None or (before and before.title == opened.title):
-        return state
-    return replace(state, listing=Listing(0, others=opened), help=False)
-
-
 def plot(state: State, token: str) -> State:
     """Chart a quantity, none for "", and close the list."""
     if not token:
-        return replace(state, look=replace(state.look, chart=None), listing=None)
+        return replace(state.unlisted, look=replace(state.look, chart=None))
     if token not in state.scene.quantities:
         return with_toast(state, f"{state.scene.name} has no quantity {token}")
-    return replace(state, look=replace(state.look, chart=token), listing=None)
+    return replace(state.unlisted, look=replace(state.look, chart=token))
 
 
 def strip(state: State, token: str) -> State:
@@ -266,7 +172,7 @@ def put(state: State, place: int) -> State:
     """Show a scene by its place on the shelf, and close the shelf."""
     if not 0 <= place < len(state.shelf):
         return state
-    return replace(put_on(state, place), browsing=None)
+    return put_on(state, place)
 
 
 # Actions on the list of dimensions, and undo and redo.
@@ -289,7 +195,7 @@ def edit(state: State, _: None) -> State:
     state = drop(state, None)
     state = choose(replace(state, editing=replace(state.editing, drafts=())), 0)
     editing = replace(state.editing, open=not state.editing.open)
-    return replace(state, editing=editing, listing=None, browsing=None)
+    return replace(state.unlisted, editing=editing)
 
 
 def choose(state: State, further: int) -> State:

@@ -111,7 +111,7 @@ class Framing:
 
     def _docked(self, state: State) -> Docked:
         """Return what has room of its own."""
-        has_tools = self._window and state.editing.open and not (state.listing or state.game)
+        has_tools = self._window and state.editing.open and not (state.modes or state.game)
         row = state.sketch is not None and bool(state.sketch.answers)
         head = bool(state.building or state.posing or state.constructed or state.layers)
         return Docked(2 if has_tools else int(state.listed), row, self._window, head and not state.listed)

@@ -288,31 +288,6 @@ _IN_A_MODE: Table = {
         KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
         KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
     ),
-    "in K": (
-        KeyRow(
-            "↑ ↓",
-            "choose a quantity",
-            both("up", "down", "move") + both("pageup", "pagedown", "move", 10),
-        ),
-        KeyRow("type", "filter by name"),
-        KeyRow("Enter, click", "chart it", enter("pick", "unsift")),
-        KeyRow(
-            "Ctrl+Enter, its box",
-            "chart it below the others; off again",
-            on("ctrl+return ctrl+kp_enter", "tick"),
-        ),
-    ),
-    "in O": (
-        KeyRow(
-            "arrows, mouse",
-            "choose a mechanism",
-            both("left", "right", "move") + both("up", "down", "row"),
-        ),
-        KeyRow("type", "filter by title or chapter"),
-        KeyRow("1–9", "another of the chapter that is on", digits("select")),
-        KeyRow("PgUp, PgDn, wheel", "scroll", both("pageup", "pagedown", "scroll", 2)),
-        KeyRow("Enter, click", "put it on", enter("put_chosen", "unsift")),
-    ),
     "in W": (
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
         KeyRow("1–9, click", "take another answer", digits("answer")),
@@ -466,8 +441,6 @@ OF_MODES: tuple[ModeKeys, ...] = (
     ModeKeys("paused", typed=_ANGLE),
     _in("edit", "in E", _VALUE),
     ModeKeys("numbers", _LIST_OF_SHEET, _VALUE),
-    _in("list", "in K", TypedKeys("sift", frozenset({"space", "h", "k"}))),
-    _in("shelf", "in O", TypedKeys("sift", frozenset({"space", "h", "o", *"123456789"}))),
     _in("pencil", "in W"),
     _in("poses", "in F4"),
     _in("game", "in a game"),

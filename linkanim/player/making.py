@@ -36,7 +36,7 @@ def layers(state: State, _: None) -> State:
     """Show the layers in which the scene can be made, once they are found; or the scene again."""
     if state.layers:
         return closed(state)
-    bare = drop(replace(state, listing=None, browsing=None, glide=None, toast=None), None)
+    bare = drop(replace(state.unlisted, glide=None, toast=None), None)
     return asked(replace(bare, faded=state.frame))
 
 

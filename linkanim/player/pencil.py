@@ -30,7 +30,7 @@ def pencil(state: State, _: None) -> State:
     state = drop(left(state), None)
     editing = replace(state.editing, open=False)
     sketch = PathSketch(state.scene, state.clock, nothing_begun(editing), state.displayed.length_unit)
-    state = replace(state, sketch=sketch, editing=editing, listing=None, browsing=None, glide=None)
+    state = replace(state.unlisted, sketch=sketch, editing=editing, glide=None)
     return with_effect(replace(state, toast=None, faded=state.frame), "pencil")
 
 

@@ -44,7 +44,7 @@ def poses(state: State, _: None) -> State:
     sketch = PoseSketch(state.scene, state.clock, nothing_begun(editing), shown.length_unit)
     if isinstance(shown.purpose, PosesPurpose):
         sketch = replace(sketch, poses=tuple(SetPose(*row) for row in shown.purpose.poses))
-    state = replace(state, sketch=sketch, editing=editing, listing=None, browsing=None, glide=None)
+    state = replace(state.unlisted, sketch=sketch, editing=editing, glide=None)
     state = with_effect(replace(state, toast=None, faded=state.frame), "poses")
     return with_effect(state, "search") if sketch.is_asked else state
 

@@ -28,10 +28,10 @@ from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.command_bar import BarPrinter, button_at, share_at
 from linkanim.picture.command_icons import window_icon
 from linkanim.picture.layout import Docked, Layout, layout
-from linkanim.picture.overlay import NEAR, Browsing, Overlay
+from linkanim.picture.overlay import NEAR, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.sheet_rows import row_at
-from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
+from linkanim.picture.shelf import RowPrinter, ShelfPrinter, row_cells
 from linkanim.picture.slider import dial_value, is_on_dial, slider_rect, slider_step
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
@@ -572,10 +572,6 @@ class Screen:
         """Return where a point of the scene is in the window."""
         return self._framing.last.view.to_pixel(x, y)
 
-    def shelf_grid(self, browsing: Browsing) -> Grid:
-        """Return where the mechanisms of a shelf stand; it need not be painted yet."""
-        return grid(self.size, browsing)
-
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
@@ -584,13 +580,9 @@ class Screen:
         """Tell whether a pixel is in the column of the open list's boxes, where its rows have boxes."""
         return self._printer.is_at_boxes(self._framing.last, self.over, x)
 
-    def scrolled_by(self, x: float, y: float, *, held: bool) -> int | None:
-        """Return by how many rows the list's scroll bar is moved at a pixel; None beside the bar."""
-        listing, shown = self.state.listing, self.over.quantities
-        if listing is None or shown is None:
-            return None
-        row = self._printer.scrolled_at(self._framing.last, self.over, x, y, held=held)
-        return None if row is None else row - shown.chosen
+    def scrolled_to(self, x: float, y: float, *, held: bool) -> int | None:
+        """Return the row to which the list's scroll bar leads at a pixel; None beside the bar."""
+        return self._printer.scrolled_at(self._framing.last, self.over, x, y, held=held)
 
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""

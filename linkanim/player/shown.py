@@ -7,10 +7,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
-from math import atan2, degrees, dist, hypot, isfinite, isnan
+from math import atan2, degrees, dist, hypot, isnan
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from linkanim.build.building import Building
 from linkanim.build.dimensions import PropertyRow, rows_of
@@ -19,12 +17,9 @@ from linkanim.build.gestures import under
 from linkanim.build.numbers import chosen_row, rows_of_all, thing_at
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
 from linkanim.build.tools import TOOLS
-from linkanim.mechanics.linkage import Body, Point
-from linkanim.mechanics.motion import Pose
-from linkanim.mechanics.quantities import Quantity
+from linkanim.mechanics.linkage import Point
 from linkanim.picture.overlay import (
     AnswerRow,
-    Browsing,
     BuildShown,
     DialShown,
     DimensionLine,
@@ -36,16 +31,13 @@ from linkanim.picture.overlay import (
     Panel,
     PathShown,
     PosesShown,
-    Quantities,
     RowsShown,
     Rubber,
-    Shelf,
     SliderShown,
     Snap,
     SwingShown,
     ToolBar,
 )
-from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
@@ -64,7 +56,6 @@ from linkanim.player.state import (
     Changeover,
     Grip,
     Layering,
-    Listing,
     PathSketch,
     PoseSketch,
     Sketch,
@@ -73,7 +64,7 @@ from linkanim.player.state import (
 )
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
-from linkanim.units import short, significant, stepped, three_digits, typeset
+from linkanim.units import short, significant, three_digits, typeset
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -277,8 +268,6 @@ _HINT = (
     "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
     "Ctrl+S save   Esc closes"
 )
-_OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
-_LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Ctrl+Enter adds   Esc closes"
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
 _FREE = {
     2: "pivots and joints are free: drag them",
@@ -295,8 +284,6 @@ _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = r"\b[^\W\d_]\w*"
 _DIRECTIONS = ("along", "to the left", "to the right", "x", "y")
 """The words at the end of the labels of places, and the opposite side's."""
-_READ, _NEAR = 15, 40
-"""How many frames a value in the list of quantities stands, and how many rows near the chosen have one."""
 _STEPS = 12
 """The number of shades of a flash; each is drawn once."""
 
@@ -366,9 +353,7 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
         noted=True,
         recording=_recording(state),
         help=help_groups(state.keys, pad=state.pad) if state.help else None,
-        panel=_panel(state, items) if state.editing.open and not state.listing else None,
-        quantities=_quantities(state, state.listing) if state.listing else None,
-        shelf=_shelf(state, state.browsing) if state.browsing else None,
+        panel=_panel(state, items) if state.editing.open else None,
         path=_path(state.drawing) if state.drawing else None,
         poses=_poses(state, state.posing) if state.posing else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
@@ -378,7 +363,6 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
         slider=_slider(state),
     )
     found = state.game.shown(state, found) if state.game else found
-    found = replace(found, game=None, spots=(), handles=()) if state.listing else found
     for mode in state.modes:
         found = mode.shown(state, found)
     return found
@@ -437,46 +421,6 @@ def _slider(state: State) -> SliderShown | None:
     least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
     label = f"transmission {least}, best {best}"
     return SliderShown(label, "short coupler", "long coupler", FAMILY, round(member.place * FAMILY))
-
-
-def _quantities(state: State, listing: Listing) -> Quantities:
-    scene = state.displayed
-    if others := listing.others:
-        return Quantities(others.rows, listing.chosen, listing.sieve, _OTHERS_HINT, title=others.title)
-    found = [quantity(scene, token) for token in listing.found(scene)]
-    # Values change four times a second: faster ones cannot be read, and each change costs a drawing.
-    pose = scene.pose(state.phase_at(state.frame // _READ * _READ), speed=state.clock.speed)
-    near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
-    rows = tuple(
-        (one.words, value_words(scene, one, pose) if n in near or n < _NEAR else one.symbol)
-        for n, one in enumerate(found)
-    )
-    charted = chart_tokens(scene, state.look.chart)
-    boxes = tuple(one.token in charted for one in found)
-    title, hint = ("Another chart below", _OTHERS_HINT) if listing.adds else ("Quantities", _LIST_HINT)
-    return Quantities(rows, listing.chosen, listing.sieve, hint, title=title, boxes=boxes)
-
-
-def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
-    """Return a quantity's symbol and its value at a pose, a vector by its components.
-
-    A crank's angle is given within one turn, as in the HUD.
-    """
-    found = one.shown(pose)
-    parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
-    if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
-        parts = tuple(float(significant(float(part) % 360, 4)) % 360 for part in parts)
-    values = ", ".join(_four_digits(float(part)) for part in parts if part is not None)
-    unit = one.shown_unit(scene.length_unit)
-    return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
-
-
-def _cranks(scene: Scene) -> Iterator[Body]:
-    return (body for body in scene.linkage.bodies if scene.linkage.crank_of(body))
-
-
-def _four_digits(value: float) -> str:
-    return typeset(significant(value, 4)) if isfinite(value) else stepped(value, 1.0)
 
 
 def _poses(state: State, sketch: PoseSketch) -> PosesShown:
@@ -597,10 +541,6 @@ def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
 def _percent(share: float) -> str:
     """Return a share in percent, to two digits; below a hundred thousandth it is 0."""
     return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
-
-
-def _shelf(state: State, browsing: Browsing) -> Shelf:
-    return Shelf(browsing, state.frame - browsing.since, state.look.theme, state.clock.paused, state.edited)
 
 
 def _chip(state: State) -> Fading | None:

@@ -30,8 +30,7 @@ from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
 from linkanim.picture.layered import Layered
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Browsing, Overlay, sifted
-from linkanim.picture.quantities import quantity
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.view import Box, eased
 from linkanim.player.action import Action, Value
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
@@ -46,75 +45,6 @@ if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
     from linkanim.synthesis.guidance import PoseAnswer
-
-# The lists in an open overlay: the list of quantities, and the shelf of mechanisms.
-#
-# Both belong to the window alone, and no tape keeps them. The choice made there is an action of its own
-# ("plot", "put"), which a tape does keep.
-
-
-class ListRow(NamedTuple):
-    """A row of a list: its words, the key that does the same, and its action."""
-
-    words: str
-    key: str
-    action: Action
-
-
-@frozen
-class Entries:
-    """Rows under a title, and the letters that filter them; a folder may give a hundred thousand rows."""
-
-    title: str
-    entries: tuple[ListRow, ...]
-    sieve: str = ""
-
-    @cached_property
-    def found(self) -> tuple[ListRow, ...]:
-        """The rows that have all the sieve's words."""
-        return sifted({one: (one.words, one.key) for one in self.entries}, self.sieve)
-
-    @cached_property
-    def rows(self) -> tuple[tuple[str, str], ...]:
-        """The found rows as a list shows them: their words and keys."""
-        return tuple((one.words, one.key) for one in self.found)
-
-
-@frozen
-class Listing:
-    """The open list, of quantities or of `others`: the chosen row, and the letters that filter the list.
-
-    With `adds` a quantity is charted below the present charts, not in their place.
-    """
-
-    chosen: int
-    sieve: str = ""
-    others: Entries | None = None
-    adds: bool = False
-
-    def found(self, scene: Scene) -> tuple[str, ...]:
-        """Return the tokens of quantities, or the words of others, that have all the sieve's words."""
-        if self.others is None:
-            return listed(scene, self.sieve)
-        return tuple(one.words for one in self.others.found)
-
-    def asked(self, scene: Scene, row: int) -> Action | None:
-        """Return the action of a row; None where there is no such row."""
-        if self.others is not None:
-            return next((one.action for one in self.others.found[row : row + 1]), None)
-        charts = "strip" if self.adds else "plot"
-        return next((Action(charts, token) for token in self.found(scene)[row : row + 1]), None)
-
-    def sifted(self, sieve: str) -> Listing:
-        """Return the list with another sieve, at its top."""
-        return replace(self, chosen=0, sieve=sieve, others=self.others and replace(self.others, sieve=sieve))
-
-
-def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
-    """Return the tokens of the quantities with a value that have all the sieve's words, key ones first."""
-    found = {token: quantity(scene, token) for token in scene.valued}
-    return sifted({token: (token, one.words, one.symbol) for token, one in found.items()}, sieve)
-
 
 # The editing of dimensions: the value being typed, the refused value and why, undo and redo.
 
@@ -778,7 +708,8 @@ class Mode:
 
     Modes are frozen values on the state's stack `modes`; equal ones look the same. Keys, mouse and Esc are
     for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
-    depend on what is visible, or outside. One that `is_listed` takes the room of a list.
+    depend on what is visible, or outside. One that `is_listed` takes the room of a list; one that
+    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input.
     """
 
     keys: ClassVar[ModeKeys]
@@ -786,11 +717,18 @@ class Mode:
     actions: ClassVar[Mapping[str, Rule]]
     meanings: ClassVar[Mapping[str, Resolver]] = MappingProxyType({})
     is_listed: ClassVar[bool] = False
+    gives_way: ClassVar[bool] = False
+    leads: ClassVar[bool] = False
 
     @property
     def typing(self) -> bool:
         """Whether something has been begun by typing."""
         return False
+
+    @property
+    def title(self) -> str:
+        """The title of its panel, where there are several; else empty."""
+        return ""
 
     def closed(self, state: State) -> State:
         """Return the state after Esc or the back arrow: without the mode, unless it has to let go first."""
@@ -843,7 +781,7 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab goes through, by their catalogue names or as scenes, and `place` is
-    that of the present one. `listing` and `browsing` are the open list and the open shelf, `sketch` the
+    that of the present one. `sketch` the
     pencil's stroke or poses, `sheet` the sheet, which may be closed. `layers` are those in which the scene
     can be made, while they are shown; `construction` has the scene whose construction is drawn, and how many
     steps of it. `kept` has the edited scenes of other places.
@@ -884,8 +822,6 @@ class State:
     held: Held | None = None
     grasp: Grasp | None = None
     kept: tuple[Edited, ...] = ()
-    listing: Listing | None = None
-    browsing: Browsing | None = None
     sketch: Sketch | None = None
     sheet: BuildSheet | None = None
     layers: Layering | None = None
@@ -947,6 +883,11 @@ class State:
         return replace(self, modes=tuple(one for one in self.modes if not isinstance(one, kind)))
 
     @property
+    def unlisted(self) -> State:
+        """The state without modes that give way: lists and the shelf."""
+        return replace(self, modes=tuple(one for one in self.modes if not one.gives_way))
+
+    @property
     def keys(self) -> ModeKeys:
         """The keys that have a meaning of their own now."""
         return self.top.keys if self.top else next(one for one in OF_MODES if one.name == self.mode)
@@ -956,14 +897,10 @@ class State:
         """What the keys are for, in a word."""
         if self.top:
             return self.top.keys.name
-        if self.listing:
-            return "list"
         if self.game:
             return "game"
         if self.editing.open:
             return "numbers" if self.building else "edit"
-        if self.browsing:
-            return "shelf"
         if self.sketch:
             return "poses" if self.posing else "pencil"
         if self.building:
@@ -1010,7 +947,7 @@ class State:
     def leads(self) -> bool:
         """Whether a hand on a joint drags the input: while a mechanism is shown, and on the title."""
         on_title = self.mode == "game" and self.game is not None and not self.game.covers
-        return on_title or self.mode in ("play", "paused", "list", "record")
+        return on_title or (self.top.leads if self.top else self.mode in ("play", "paused"))
 
     @property
     def saved_as(self) -> str | None:
@@ -1028,14 +965,14 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
-        if self.game and not (self.help or self.listing or self.modes):
+        if self.game and not (self.help or self.modes):
             return self.game.covers
         return self.help or self.mode not in ("play", "paused") or self.constructed > 0
 
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        is_list = self.editing.open or self.listing is not None or any(one.is_listed for one in self.modes)
+        is_list = self.editing.open or any(one.is_listed for one in self.modes)
         return is_list or self.game is not None
 
     @property
@@ -1043,14 +980,11 @@ class State:
         """Whether something has been begun in the open list."""
         if self.top:
             return self.top.typing
-        if self.listing:
-            return bool(self.listing.sieve)
         sheet = self.building
         if self.editing.open:
             return bool(self.editing.typed or (sheet and sheet.building.typed))
         begun = sheet.building.typed or sheet.building.lettered if sheet else self.place_typed
-        browsed = self.browsing.sieve if self.browsing else begun
-        return bool(browsed)
+        return bool(begun)
 
     @property
     def valued(self) -> bool:

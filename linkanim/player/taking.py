@@ -112,7 +112,7 @@ def toggle(state: State, _: None) -> State:
     """Open the dialog, or close it."""
     if state.recording:
         return with_toast(state, RUNS)
-    bare = replace(state, help=False, listing=None, browsing=None)
+    bare = replace(state.unlisted, help=False)
     return bare.without(TakeDialog) if state.of(TakeDialog) else bare.with_mode(TakeDialog(row=_START))
 
 
@@ -281,7 +281,7 @@ class TakeDialog(Mode):
         "take_refused": Rule(rules.text, refused),  # why it cannot be written there
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"taking": _opened, "take_start": _started}
-    typing, is_listed = True, True
+    typing, is_listed, leads = True, True, True
 
     @property
     def place(self) -> str:

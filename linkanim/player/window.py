@@ -76,7 +76,6 @@ _USUALLY_MADE = ("--fit", "A4")
 """Options of `linkanim make` for parts that are made from the window."""
 _WAITS = "unsaved work of another sheet is kept as well; `linkanim new` without a photograph takes it up"
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
-_NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 _BESIDE_A_TAPE = frozenset(
     {"stir", "hint", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
 )
@@ -222,43 +221,9 @@ class Window:
         elif not self.state.kiosk:
             yield Action("fullscreen")
 
-    def _pick(self, row: Value) -> Iterator[Action]:
-        """Yield the action that takes a row of the open list; without a row, the chosen one."""
-        if listing := self.state.listing:
-            row = row if isinstance(row, int) else listing.chosen
-            asked = listing.asked(self.state.scene, row)
-            yield from (Action("back"),) if listing.others or listing.adds else ()
-            yield from self.resolved(asked) if asked else ()
-
-    def _tick(self, row: Value) -> Iterator[Action]:
-        """Yield the action that charts a row's quantity below the others; without a row, the chosen one's."""
-        listing = self.state.listing
-        if listing and listing.others is None:
-            row = row if isinstance(row, int) else listing.chosen
-            yield from (Action("strip", token) for token in listing.found(self.state.scene)[row : row + 1])
-
-    def _put_chosen(self, _: Value) -> Iterator[Action]:
-        """Yield the action that shows the shelf's chosen mechanism, if the sieve has left one."""
-        browsing = self.state.browsing
-        if browsing and browsing.chosen in browsing.found:
-            yield from self._put(browsing.chosen)
-
-    def _put(self, place: Value) -> Iterator[Action]:
-        """Yield the action that shows what is at a place of the shelf: a mechanism, or a user's file."""
-        browsing = self.state.browsing
-        file = browsing.file_at(place) if browsing and isinstance(place, int) else None
-        if file:
-            yield Action("shelf")
-            yield Action("open_file", file.name)
-        else:
-            yield Action("put", place)
-
-    def _shelf(self, _: Value) -> Iterator[Action]:
-        """Yield the actions that open the shelf with the current folder's scene files, or close it."""
-        yield Action("shelf")
-        files = scene_files() if self.state.browsing else ()
-        if files:
-            yield Action("files", _listed(files))
+    def scene_files(self) -> tuple[OwnFile, ...]:
+        """Return the scene files in the current folder."""
+        return scene_files()
 
     def proposed_places(self) -> str:
         """Return the current folder and places in it to write to, one a line."""
@@ -272,18 +237,6 @@ class Window:
             return str(error)
         self._last_place = str(Path(file).parent)
         return ""
-
-    def _move(self, further: Value) -> Iterator[Action]:
-        """Yield a step in the list or along the shelf, which scrolls with it."""
-        yield Action("move", further)
-        yield from self._in_sight()
-
-    def _row(self, rows: Value) -> Iterator[Action]:
-        """Yield the action that chooses the mechanism `rows` rows further down on the shelf."""
-        browsing = self.state.browsing
-        if browsing and isinstance(rows, int):
-            yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, rows))
-            yield from self._in_sight()
 
     def _followed(self) -> Iterator[Action]:
         """Yield the actions with which the search for linkages has replied."""
@@ -332,36 +285,6 @@ class Window:
         request = request_of(known, **asked) if known else None
         if request:
             self._following.ask(request)
-
-    def _in_sight(self) -> Iterator[Action]:
-        """Yield the action that scrolls the shelf to where its chosen entry is visible."""
-        if self.state.browsing:
-            yield Action("top", self.screen.shelf_grid(self.state.browsing).top)
-
-    def _scroll(self, rows: Value) -> Iterator[Action]:
-        """Yield the actions that scroll the shelf by `rows`; the chosen entry stays a visible one."""
-        browsing = self.state.browsing
-        if browsing is None or not isinstance(rows, int):
-            return
-        before = self.screen.shelf_grid(browsing)
-        if not before.rows:
-            return
-        row = min(max(before.top + rows, 0), len(before.rows) - 1)
-        free = self.screen.shelf_grid(replace(browsing, top=row, chosen=before.rows[row][0]))
-        yield Action("top", free.top)
-        if not free.whole(browsing.chosen):
-            # in a low window no entry may be visible as a whole
-            seen = [n for n in free.cells if free.whole(n)] or [*free.cells]
-            yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
-
-    def _files_here(self, _: Value) -> Iterator[Action]:
-        """Yield the actions that open the shelf at the current folder's scene files."""
-        files = scene_files()
-        if not files:
-            yield Action("note", _NO_FILES)
-            return
-        yield Action("files", _listed(files))
-        yield Action("point", len(self.state.shelf))
 
     def _aim(self, way: Value) -> Iterator[Action]:
         """Yield what an arrow means on a sheet or with poses: the cursor moves."""
@@ -667,23 +590,9 @@ def _of_tool(name: str) -> Callable[[Window, Value], Iterator[Action]]:
     return lambda window, value: iter(tool_asks(window.state, Action(name, value)))
 
 
-def _listed(files: Sequence[OwnFile]) -> str:
-    """Return files as the value of an action."""
-    return "\n".join(f"{one.name}\t{one.written}" for one in files)
-
-
 MEANINGS: Mapping[str, Callable[[Window, Value], Iterable[Action]]] = {
     "back": Window._back,
-    "pick": Window._pick,
-    "tick": Window._tick,
-    "put": Window._put,
-    "put_chosen": Window._put_chosen,
-    "shelf": Window._shelf,
     **modes.MEANINGS,
-    "move": Window._move,
-    "row": Window._row,
-    "scroll": Window._scroll,
-    "files_here": Window._files_here,
     "aim": Window._aim,
     "enter": Window._enter,
     **{name: _of_tool(name) for name in {tool.action for tool in TOOLS}},

@@ -8,9 +8,11 @@ from typing import Any
 import pygame
 
 from linkanim.player import screen
+from linkanim.player.commands import Entries
 from linkanim.player.files import SceneFile
+from linkanim.player.listing import Listing
 from linkanim.player.shown import overlay
-from linkanim.player.state import CHIP_FRAMES, STIR_FRAMES, State
+from linkanim.player.state import CHIP_FRAMES, STIR_FRAMES, OneMode, State
 from linkanim.player.window import GameKeeper, Window
 from linkanim.synthesis.follower import Reply, Request
 
@@ -63,6 +65,20 @@ class Player:
         for place in places[1:]:
             self.mouse(pygame.MOUSEMOTION, place, rel=(0, 0), buttons=(1, 0, 0))
         self.mouse(pygame.MOUSEBUTTONUP, places[-1], button=1)
+
+
+def the(state: State, kind: type[OneMode]) -> OneMode:
+    """Return the open mode of a kind; there must be one."""
+    found = state.of(kind)
+    assert found is not None
+    return found
+
+
+def menu_in(state: State) -> Entries:
+    """Return the rows of the open list of commands; there must be one."""
+    others = the(state, Listing).others
+    assert others
+    return others
 
 
 class NoSearch:

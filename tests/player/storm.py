@@ -29,6 +29,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.devices import code
 from linkanim.player.files import DraftFile, SceneFile
+from linkanim.player.listing import Listing
 from linkanim.player.modes import key_names
 from linkanim.player.state import State, begin
 from linkanim.player.window import Window
@@ -344,7 +345,7 @@ def _spots(window: Window) -> list[tuple[int, int]]:
     cells = [*bar_cells(shown._bar_layout(shown.over), buttons), *shown.answer_cells(), layout.dial]
     middles = [cell.middle for cell in cells if cell]
     width, height = shown.size
-    rows = [complex(width / 8, height * n / 9) for n in range(1, 9)] if window.state.listing else []
+    rows = [complex(width / 8, height * n / 9) for n in range(1, 9)] if window.state.of(Listing) else []
     return [(round(at.real), round(at.imag)) for at in (*middles, *rows)]
 
 

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pygame
 import pytest
-from playing import SIZE, Player, fake_start
+from playing import SIZE, Player, fake_start, the
 
 from linkanim.picture.quantities import quantity
 from linkanim.picture.shelf import Grid
+from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.commands import Entries, ListRow
+from linkanim.player.listing import Listing, listed
+from linkanim.player.shelving import OpenShelf
 from linkanim.player.shown import overlay
-from linkanim.player.state import Entries, Listing, ListRow, State, begin, listed
+from linkanim.player.state import State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import Scene, load, names
 
@@ -98,38 +101,38 @@ def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
 def test_the_lists_ends_are_ends(press: State) -> None:
     begun = after(press, "list")
     top = after(begun, Action("move", -1))
-    assert begun.listing is not None
-    assert top.listing is not None
-    assert begun.listing.chosen == 0
-    assert top.listing.chosen == 0
+    assert begun.of(Listing) is not None
+    assert top.of(Listing) is not None
+    assert the(begun, Listing).chosen == 0
+    assert the(top, Listing).chosen == 0
     bottom = after(top, Action("move", 10_000))
-    assert bottom.listing is not None
-    assert bottom.listing.chosen == len(listed(press.scene, "")) - 1
+    assert bottom.of(Listing) is not None
+    assert the(bottom, Listing).chosen == len(listed(press.scene, "")) - 1
     only = after(press, "list", Action("sift", "cushion.f"), Action("move", 1))
-    assert only.listing is not None
-    assert only.listing.chosen == 0
+    assert only.of(Listing) is not None
+    assert the(only, Listing).chosen == 0
 
 
 def test_backspace_takes_one_letter_off_the_sieve(press: State) -> None:
     state = after(press, "list", Action("sift", "ve"), "unsift")
-    assert state.listing is not None
-    assert state.listing.sieve == "v"
+    assert state.of(Listing) is not None
+    assert the(state, Listing).sieve == "v"
 
 
 def test_sifting_starts_from_the_top(press: State) -> None:
     state = after(press, "list", Action("move", 5), Action("sift", "v"))
-    assert state.listing is not None
-    assert (state.listing.chosen, state.listing.sieve) == (0, "v")
+    assert state.of(Listing) is not None
+    assert (the(state, Listing).chosen, the(state, Listing).sieve) == (0, "v")
     state = after(state, Action("move", 2), "unsift")
-    assert state.listing is not None
-    assert (state.listing.chosen, state.listing.sieve) == (0, "")
+    assert state.of(Listing) is not None
+    assert (the(state, Listing).chosen, the(state, Listing).sieve) == (0, "")
 
 
 def test_the_list_opens_at_what_is_charted(press: State) -> None:
     token = [*press.scene.quantities][40]
     state = after(press, Action("plot", token), "list")
-    assert state.listing is not None
-    assert listed(press.scene, "")[state.listing.chosen] == token
+    assert state.of(Listing) is not None
+    assert listed(press.scene, "")[the(state, Listing).chosen] == token
 
 
 def test_c_goes_through_the_telling_ones_and_then_shows_none(press: State) -> None:
@@ -156,7 +159,7 @@ def test_names_are_off_then_names_then_dimensions(press: State) -> None:
 def test_an_open_list_or_shelf_is_closed_by_its_key_and_by_escape(press: State, key: str) -> None:
     for opening in ("list", "shelf"):
         state = after(press, opening, key if key == "back" else opening)
-        assert (state.listing, state.browsing, state.effects) == (None, None, ())
+        assert (state.of(Listing), state.of(OpenShelf), state.effects) == (None, None, ())
 
 
 def test_one_overlay_is_open_at_a_time(press: State) -> None:
@@ -166,7 +169,7 @@ def test_one_overlay_is_open_at_a_time(press: State) -> None:
 
 
 def test_a_list_of_another_mechanism_is_closed(press: State) -> None:
-    assert after(press, "list", Action("mechanism", 1)).listing is None
+    assert after(press, "list", Action("mechanism", 1)).modes == ()
 
 
 def test_an_unknown_quantity_is_not_charted(press: State) -> None:
@@ -182,26 +185,26 @@ def test_a_chart_stays_on_a_mechanism_that_has_its_quantity(press: State) -> Non
 
 def test_the_shelfs_first_mechanism_is_chosen_and_put_on(press: State) -> None:
     state = after(press, "shelf", Action("point", 0))
-    assert state.browsing is not None
-    assert state.browsing.chosen == 0
+    assert state.of(OpenShelf) is not None
+    assert the(state, OpenShelf).chosen == 0
     assert after(state, Action("put", 0)).scene.name == names()[0]
 
 
 def test_the_shelf_opens_at_the_mechanism_that_is_on_and_goes_round(press: State) -> None:
     state = after(press, "shelf")
-    assert state.browsing is not None
-    assert state.browsing.entries == names()
-    assert state.browsing.chosen == press.place
+    assert state.of(OpenShelf) is not None
+    assert the(state, OpenShelf).entries == names()
+    assert the(state, OpenShelf).chosen == press.place
     state = after(state, Action("move", len(names()) + 1))  # and an empty sheet
-    assert state.browsing is not None
-    assert state.browsing.chosen == press.place
+    assert state.of(OpenShelf) is not None
+    assert the(state, OpenShelf).chosen == press.place
 
 
 @pytest.mark.parametrize("place", [-2, 999])
 def test_a_place_off_the_shelf_is_not_gone_to(press: State, place: int) -> None:
     state = after(press, "shelf", Action("point", place), Action("put", place))
-    assert state.browsing is not None
-    assert (state.browsing.chosen, state.scene) == (press.place, press.scene)
+    assert state.of(OpenShelf) is not None
+    assert (the(state, OpenShelf).chosen, state.scene) == (press.place, press.scene)
 
 
 def test_the_shelf_opens_at_once_and_reads_a_mechanism_every_second_frame(
@@ -239,14 +242,14 @@ def test_a_quantity_is_charted_from_the_list(player: Player) -> None:
     player.press(pygame.K_DOWN)
     player.press(pygame.K_RETURN)
     assert player.state.look.chart == listed(player.state.scene, "rocker a")[1]
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
 
 
 def test_nothing_is_charted_where_nothing_is_found(player: Player) -> None:
     player.type("k")
     player.type("xyzzy")
     player.press(pygame.K_RETURN)
-    assert (player.state.look.chart, player.state.listing is not None) == (None, True)
+    assert (player.state.look.chart, player.state.of(Listing) is not None) == (None, True)
 
 
 def test_the_next_quantity_is_charted_below_by_shift_k_and_enter(player: Player) -> None:
@@ -255,12 +258,12 @@ def test_the_next_quantity_is_charted_below_by_shift_k_and_enter(player: Player)
         player.press(pygame.K_k, pygame.KMOD_LSHIFT, "K")
         player.press(pygame.K_RETURN)
         assert player.state.look.chart == ",".join(player.state.scene.telling[:count])
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
 
 
 def _grid(player: Player) -> Grid:
-    assert player.state.browsing
-    return player.window.screen.shelf_grid(player.state.browsing)
+    assert player.state.of(OpenShelf)
+    return shelf_grid(player.window.screen.size, the(player.state, OpenShelf))
 
 
 def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
@@ -269,15 +272,15 @@ def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
     player.press(pygame.K_RIGHT)
     player.press(pygame.K_DOWN)
     player.press(pygame.K_RETURN)
-    assert (player.state.scene.name, player.state.browsing) == (names()[below], None)
+    assert (player.state.scene.name, player.state.of(OpenShelf)) == (names()[below], None)
 
 
 def test_the_shelf_opened_and_browsed_within_one_frame_goes_a_row_down(player: Player) -> None:
     for key, letter in ((pygame.K_o, "o"), (pygame.K_DOWN, "")):
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=0, unicode=letter))
     player.tick()
-    assert player.state.browsing
-    assert player.state.browsing.chosen > 0
+    assert player.state.of(OpenShelf)
+    assert the(player.state, OpenShelf).chosen > 0
 
 
 def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
@@ -285,8 +288,8 @@ def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     cell = _grid(player).cells[1]
     middle = (cell.x + cell.width / 2, cell.y + cell.height / 2)
     player.mouse(pygame.MOUSEMOTION, middle, rel=(0, 0), buttons=(0, 0, 0))
-    assert player.state.browsing is not None
-    assert player.state.browsing.chosen == 1
+    assert player.state.of(OpenShelf) is not None
+    assert the(player.state, OpenShelf).chosen == 1
     player.drag(middle)
     assert player.state.scene.name == names()[1]
     assert not player.state.is_covered
@@ -308,31 +311,31 @@ SIFTED = {
 @pytest.mark.parametrize(("on", "typed", "first"), SIFTED.values(), ids=SIFTED)
 def test_letters_sift_the_shelf(on: str, typed: str, first: str) -> None:
     state = after(begin(load(on)), "shelf", *(Action("sift", letter) for letter in typed))
-    assert state.browsing
-    found = [state.browsing.entries[n] for n in state.browsing.found]
-    assert state.browsing.entries[state.browsing.chosen] == first
+    assert state.of(OpenShelf)
+    found = [the(state, OpenShelf).entries[n] for n in the(state, OpenShelf).found]
+    assert the(state, OpenShelf).entries[the(state, OpenShelf).chosen] == first
     assert first in found
     assert len(found) < len(names()) / 2
     moved = after(state, Action("move", len(found)))
-    assert moved.browsing
-    assert moved.browsing.chosen == state.browsing.chosen
+    assert moved.of(OpenShelf)
+    assert the(moved, OpenShelf).chosen == the(state, OpenShelf).chosen
     back = after(state, *["unsift"] * len(typed))
-    assert back.browsing
-    assert (back.browsing.sieve, len(back.browsing.found)) == ("", len(names()) + 1)
+    assert back.of(OpenShelf)
+    assert (the(back, OpenShelf).sieve, len(the(back, OpenShelf).found)) == ("", len(names()) + 1)
 
 
 def test_the_shelf_is_sifted_with_keys_and_nothing_is_put_on_where_nothing_is_found(player: Player) -> None:
     player.type("o")
     player.type("peau")
     player.press(pygame.K_RETURN)
-    assert (player.state.scene.name, player.state.browsing) == ("peaucellier", None)
+    assert (player.state.scene.name, player.state.of(OpenShelf)) == ("peaucellier", None)
     player.type("o")
     player.type("xyzzy")
     player.press(pygame.K_RETURN)
-    assert player.state.browsing
+    assert player.state.of(OpenShelf)
     assert player.state.scene.name == "peaucellier"
     player.press(pygame.K_ESCAPE)
-    assert player.state.browsing is None
+    assert player.state.of(OpenShelf) is None
 
 
 def test_the_wheel_scrolls_the_shelf_and_what_is_chosen_stays_in_sight(player: Player) -> None:
@@ -341,9 +344,9 @@ def test_the_wheel_scrolls_the_shelf_and_what_is_chosen_stays_in_sight(player: P
         before = _grid(player)
         pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
         player.tick()
-        assert player.state.browsing
+        assert player.state.of(OpenShelf)
         found = _grid(player)
-        assert found.whole(player.state.browsing.chosen)
+        assert found.whole(the(player.state, OpenShelf).chosen)
         assert (found.top > before.top) == (notches < 0)
     assert found.top == 0
 
@@ -357,8 +360,8 @@ def test_arrows_scroll_no_more_than_they_need(player: Player) -> None:
         player.press(pygame.K_DOWN)
     assert tops == sorted(tops)
     player.press(pygame.K_UP)
-    assert player.state.browsing
-    assert _grid(player).whole(player.state.browsing.chosen)
+    assert player.state.of(OpenShelf)
+    assert _grid(player).whole(the(player.state, OpenShelf).chosen)
 
 
 # What moves about on the shelf by keys and mouse.
@@ -379,10 +382,10 @@ def test_where_nothing_is_found_nothing_is_moved_to(
 ) -> None:
     player.type("o")
     player.type("xyzzy")
-    before = player.state.browsing
+    before = player.state.of(OpenShelf)
     pygame.event.post(pygame.event.Event(*event))
     player.tick()
-    assert player.state.browsing == before
+    assert player.state.of(OpenShelf) == before
 
 
 @pytest.mark.thinned(7)
@@ -396,17 +399,17 @@ def test_a_window_too_low_for_a_whole_picture_is_scrolled(
     for _ in range(3):
         pygame.event.post(pygame.event.Event(*event))
         player.tick()
-    assert player.state.browsing
+    assert player.state.of(OpenShelf)
     if size == (320, 120) and event[0] == pygame.MOUSEWHEEL:
         assert _grid(player).top == 3
     player.press(pygame.K_RETURN)
-    assert player.state.browsing is None
+    assert player.state.of(OpenShelf) is None
 
 
 def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:
     player.type("o")
     player.drag((1, 1))
-    assert (player.state.browsing, player.state.scene.name) == (None, "crank-rocker")
+    assert (player.state.of(OpenShelf), player.state.scene.name) == (None, "crank-rocker")
 
 
 def fingers(player: Player, *places: tuple[float, float]) -> None:
@@ -433,7 +436,7 @@ def test_the_shelf_is_scrolled_by_its_bar_and_by_a_drag(
     drag((x, track.y + 2), (x, track.bottom - 2))
     bottom = _grid(player)
     assert bottom.whole(len(names()) - 1)
-    assert player.state.browsing
+    assert player.state.of(OpenShelf)
     assert bottom.seen.stop == len(bottom.rows)
     drag((x, track.bottom - 2), (x, track.y + 2))
     assert _grid(player).top == 0
@@ -486,12 +489,12 @@ def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
 
 def test_a_list_of_very_many_entries_is_sifted_once_for_its_letters(press: State) -> None:
     entries = Entries("Many", tuple(ListRow(f"s{n:05}", "", Action("note", "")) for n in range(50_000)))
-    opened = replace(press, listing=Listing(0, others=entries))
+    opened = press.with_mode(Listing(0, others=entries))
     lists = [overlay(state).quantities for state in (opened, after(opened, Action("move", 3)))]
     assert [one and one.chosen for one in lists] == [0, 3]
     rows = [one and one.rows for one in lists]
     assert rows[0] is rows[1]  # no frame and no key looks at all of them again
     typed = after(opened, Action("sift", "S49 "), Action("sift", "9999"))
-    assert typed.listing
-    assert typed.listing.found(press.scene) == ("s49999",)
-    assert after(typed, *["unsift"] * 8).listing == opened.listing
+    assert typed.of(Listing)
+    assert the(typed, Listing).found(press.scene) == ("s49999",)
+    assert after(typed, *["unsift"] * 8).of(Listing) == opened.of(Listing)

@@ -31,6 +31,7 @@ from linkanim.player.files import DraftFile
 from linkanim.player.keys import Press, bind_of
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
+from linkanim.player.shelving import OpenShelf
 from linkanim.player.shown import overlay
 from linkanim.player.state import TOAST_FRAMES, BuildSheet, Grip, begin
 from linkanim.player.tape import Tape, Taping
@@ -451,7 +452,7 @@ def test_closing_with_a_draft_in_no_file_asks_once(builder: Builder) -> None:
 def test_the_shelf_begins_with_an_empty_sheet(builder: Builder) -> None:
     builder.press(pygame.K_F2)
     builder.press(pygame.K_o)
-    browsing = builder.state.browsing
+    browsing = builder.state.of(OpenShelf)
     assert browsing
     assert browsing.found[0] == NEW
     builder.type("new")

@@ -10,7 +10,7 @@ from typing import Any
 
 import pygame
 import pytest
-from playing import SIZE, Player
+from playing import SIZE, Player, menu_in, the
 
 from linkanim.picture.command_bar import bar_cells, bar_place, button_at, share_at
 from linkanim.picture.command_icons import COMMAND_ICONS
@@ -23,8 +23,10 @@ from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
 from linkanim.player.framing import Framing
 from linkanim.player.keys import GROUPS, commands
+from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
+from linkanim.player.shelving import OpenShelf
 from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import STIR_FRAMES, State, begin
 from linkanim.player.taking import TakeDialog
@@ -111,9 +113,8 @@ def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
 
 def rows(state: State) -> list[str]:
     """Return the words of the open list of commands."""
-    assert state.listing
-    assert state.listing.others
-    return [one.words for one in state.listing.others.entries]
+    assert state.of(Listing)
+    return [one.words for one in menu_in(state).entries]
 
 
 # What a button does to the state, by its name in the table.
@@ -121,8 +122,8 @@ DONE: dict[str, Callable[[State], object]] = {
     "play / pause": lambda state: state.clock.paused,
     "a step on": lambda state: state.clock.steps == 1,
     "coupler trace": lambda state: not state.look.trace,
-    "the shelf": lambda state: state.browsing is not None,
-    "the list of quantities": lambda state: state.listing is not None and not state.listing.others,
+    "the shelf": lambda state: state.of(OpenShelf) is not None,
+    "the list of quantities": lambda state: state.of(Listing) is not None and not the(state, Listing).others,
     "edit dimensions": lambda state: state.editing.open,
     "build a linkage": lambda state: state.building is not None,
     "draw a path to follow": lambda state: state.sketch is not None,
@@ -346,7 +347,7 @@ def test_a_double_click_on_a_button_leaves_all_as_it_was(
         player.drag((at.real, at.imag))
     now = player.state
     assert now.mode == before.mode
-    assert (now.help, now.listing, now.browsing, now.modes, now.building) == (False, None, None, (), None)
+    assert (now.help, now.modes, now.building) == (False, (), None)
     assert (now.clock.level, now.clock.paused, now.look) == (
         before.clock.level,
         before.clock.paused,
@@ -413,7 +414,7 @@ def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, ta
         player.tick(20)
         player.press(pygame.K_SPACE)
         for name in names:
-            listing = player.state.listing
+            listing = player.state.of(Listing)
             if listing or player.state.of(TakeDialog):
                 labels = [one.label for one in taking.rows(player.state)]
                 words = [*listing.found(player.state.scene)] if listing else labels

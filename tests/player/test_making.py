@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 import pygame
 import pytest
-from playing import SHIFT, Player, fake_start
+from playing import SHIFT, Player, fake_start, menu_in
 
 from linkanim.export import json_text
 from linkanim.picture.command_bar import bar_cells
@@ -30,6 +30,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import Making
 from linkanim.player.keys import commands
+from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.shown import overlay
 from linkanim.player.state import LIFTED, State, begin
@@ -393,15 +394,14 @@ def test_a_construction_is_found_by_its_name_among_all_commands(large: Player, t
     large.type(typed)
     large.press(pygame.K_RETURN)
     assert kind_of(large) == (kind, 1)
-    assert large.state.listing is None
+    assert large.state.of(Listing) is None
 
 
 @pytest.mark.parametrize("what", ["link crank", "construction"])
 def test_a_menu_of_what_it_is_about_has_each_construction(large: Player, what: str) -> None:
     state = after(large.state, Action("menu", what))
-    assert state.listing
-    assert state.listing.others
-    names = [row.words for row in state.listing.others.found if row.action.name == "construction"]
+    assert state.of(Listing)
+    names = [row.words for row in menu_in(state).found if row.action.name == "construction"]
     assert names == ["construction of its dead centres", "construction of its instant centres"]
 
 

@@ -8,16 +8,17 @@ from typing import Any
 
 import pygame
 import pytest
-from playing import NoSearch, Player
+from playing import NoSearch, Player, menu_in, the
 
 from linkanim.play.games import game_of
 from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_known
-from linkanim.player.commands import menu_of
+from linkanim.player.commands import ListRow, menu_of
 from linkanim.player.keys import GROUPS, commands
+from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
-from linkanim.player.state import ListRow, State, begin
+from linkanim.player.state import State, begin
 from linkanim.player.window import MEANINGS
 from linkanim.scenes import load, names
 
@@ -73,9 +74,8 @@ CONSTRUCTED = [
 
 
 def open_rows(state: State) -> list[ListRow]:
-    assert state.listing
-    assert state.listing.others
-    return [*state.listing.others.found]
+    assert state.of(Listing)
+    return [*menu_in(state).found]
 
 
 @pytest.mark.thinned(3)
@@ -142,7 +142,7 @@ def test_over_a_game_the_list_begins_with_what_the_game_has_now(player: Player, 
     assert found[: len(GAMES[words])] == GAMES[words]
     assert not any("answer or door" in one for one in found)
     player.press(pygame.K_RETURN)
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
 
 
 @pytest.mark.parametrize("group", GROUPS)
@@ -233,9 +233,8 @@ def place(player: Player, joint: str) -> tuple[float, float]:
 
 
 def opened(player: Player) -> str:
-    assert player.state.listing
-    assert player.state.listing.others
-    return player.state.listing.others.title
+    assert player.state.of(Listing)
+    return menu_in(player.state).title
 
 
 def test_a_right_click_on_a_joint_a_link_and_the_chart_lists_what_these_have(player: Player) -> None:
@@ -254,7 +253,7 @@ def test_a_right_click_on_a_joint_a_link_and_the_chart_lists_what_these_have(pla
         player.mouse(pygame.MOUSEBUTTONDOWN, at, button=3)
         assert opened(player) == title
         player.mouse(pygame.MOUSEBUTTONDOWN, at, button=3)
-        assert player.state.listing is None
+        assert player.state.of(Listing) is None
 
 
 @pytest.mark.parametrize("by", ["mouse", "finger"])
@@ -280,7 +279,7 @@ def test_a_long_press_does_what_a_right_click_does(player: Player, by: str) -> N
         player.tick()
     chips.append(player.state.chip)
     assert [chip and chip.text for chip in chips] == [None, "let go: commands"]
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
     if by == "mouse":
         player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
     else:
@@ -302,7 +301,7 @@ def test_a_hand_that_moves_is_no_long_press(player: Player, waits: int) -> None:
     for _ in range(60):
         player.tick()
     player.mouse(pygame.MOUSEBUTTONUP, (x + 20, y), button=1)
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
 
 
 def test_a_joint_that_is_held_on_and_on_is_only_held(player: Player) -> None:
@@ -311,7 +310,7 @@ def test_a_joint_that_is_held_on_and_on_is_only_held(player: Player) -> None:
     for _ in range(160):
         player.tick()
     player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
 
 
 def test_a_pose_that_is_set_down_slowly_is_a_pose(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -326,14 +325,14 @@ def test_a_pose_that_is_set_down_slowly_is_a_pose(player: Player, monkeypatch: p
         if x == 420:
             player.mouse(pygame.MOUSEMOTION, (x + 60, 160), rel=(0, 0), buttons=(1, 0, 0))
         player.mouse(pygame.MOUSEBUTTONUP, (x, 180), button=1)
-        assert player.state.listing is None
+        assert player.state.of(Listing) is None
     assert player.state.posing
     assert len(player.state.posing.poses) == 2
     player.mouse(pygame.MOUSEBUTTONDOWN, (300, 180), button=1)
     for _ in range(60):
         player.tick()
     player.mouse(pygame.MOUSEBUTTONUP, (300, 180), button=1)
-    assert player.state.listing
+    assert player.state.of(Listing)
     assert len(player.state.posing.poses) == 2
 
 
@@ -353,19 +352,19 @@ def test_a_right_click_on_the_sheet_chooses_what_is_there_and_lists_what_is_done
 def test_a_long_list_has_a_scroll_bar_that_is_dragged(player: Player) -> None:
     player.press(pygame.K_F10)
     count, window = len(open_rows(player.state)), player.window.screen
-    strip = [(x, y) for x in range(639) for y in (180,) if window.scrolled_by(x, y, held=False) is not None]
+    strip = [(x, y) for x in range(639) for y in (180,) if window.scrolled_to(x, y, held=False) is not None]
     x, y = strip[len(strip) // 2]
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
-    assert player.state.listing
-    assert 0.3 * count < player.state.listing.chosen < 0.7 * count
+    assert player.state.of(Listing)
+    assert 0.3 * count < the(player.state, Listing).chosen < 0.7 * count
     for to, row in ((359, count - 1), (0, 0)):
         player.mouse(pygame.MOUSEMOTION, (x - 60, to), rel=(0, 0), buttons=(1, 0, 0))
-        assert player.state.listing
-        assert player.state.listing.chosen == row
+        assert player.state.of(Listing)
+        assert the(player.state, Listing).chosen == row
     player.mouse(pygame.MOUSEBUTTONUP, (x, 5), button=1)
     player.mouse(pygame.MOUSEMOTION, (x, 300), rel=(0, 0), buttons=(0, 0, 0))
-    assert player.state.listing
-    assert player.state.listing.chosen == 0
+    assert player.state.of(Listing)
+    assert the(player.state, Listing).chosen == 0
 
 
 def test_a_short_list_has_none(player: Player) -> None:
@@ -373,7 +372,7 @@ def test_a_short_list_has_none(player: Player) -> None:
     player.tick()
     window = player.window.screen
     assert all(
-        window.scrolled_by(x, y, held=False) is None for x in range(0, 640, 4) for y in range(0, 360, 20)
+        window.scrolled_to(x, y, held=False) is None for x in range(0, 640, 4) for y in range(0, 360, 20)
     )
 
 

@@ -22,12 +22,14 @@ from playing import CTRL, SHIFT, NoSearch, Player
 from linkanim.build.tools import TOOLS
 from linkanim.picture.command_bar import bar_cells
 from linkanim.picture.layout import tool_cells
+from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
 from linkanim.player import beside, screen, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
+from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
 from linkanim.player.tape_file import read, write
@@ -107,9 +109,9 @@ class Pointing(Hand):
                 (float(x), float(y))
                 for x in range(60, 640, 2)
                 for y in range(2, 718, 4)
-                if shown.scrolled_by(x, y, held=False) is not None
+                if shown.scrolled_to(x, y, held=False) is not None
             )
-            track = [at for at in range(2, 718, 2) if shown.scrolled_by(x, at, held=False) is not None]
+            track = [at for at in range(2, 718, 2) if shown.scrolled_to(x, at, held=False) is not None]
             share = number / (len(rows_) - 1)
             self.drag((x, y), (x, track[0] + share * (track[-1] - track[0])))
         self.drag((60.0, rows()[number] + 3))
@@ -141,9 +143,9 @@ class Pointing(Hand):
 
     def mechanism(self) -> None:
         """Take the second mechanism from the shelf."""
-        shown, browsing = self.player.window.screen, self.state.browsing
+        shown, browsing = self.player.window.screen, self.state.of(OpenShelf)
         assert browsing
-        cell = shown.shelf_grid(browsing).cells[browsing.entries.index(SECOND)]
+        cell = shelf_grid(shown.size, browsing).cells[browsing.entries.index(SECOND)]
         self.drag((cell.middle.real, cell.middle.imag))
 
     def loop(self) -> Iterator[Place]:

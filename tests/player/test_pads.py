@@ -15,6 +15,7 @@ from playing import SIZE, Player
 
 from linkanim.player import screen
 from linkanim.player.keys import PAD, RUNNING, help_groups
+from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 
@@ -105,15 +106,15 @@ def test_buttons_do_what_their_keys_do(pads: Player) -> None:
     assert button(pads, SOUTH).clock.paused
     assert not button(pads, SOUTH).clock.paused
     assert button(pads, RB).scene.name != "crank-rocker"
-    shelf = button(pads, START).browsing
+    shelf = button(pads, START).of(OpenShelf)
     assert shelf
     post(pygame.JOYHATMOTION, value=(1, 0))
     pads.tick()
-    moved = pads.state.browsing
+    moved = pads.state.of(OpenShelf)
     assert moved
     assert moved == replace(shelf, chosen=shelf.chosen + 1, top=moved.top)
-    assert button(pads, SOUTH).browsing is None  # takes what is chosen
-    assert [button(pads, number).browsing is None for number in (START, EAST)] == [False, True]
+    assert button(pads, SOUTH).of(OpenShelf) is None  # takes what is chosen
+    assert [button(pads, number).of(OpenShelf) is None for number in (START, EAST)] == [False, True]
 
 
 def test_a_d_pad_that_is_held_repeats_until_it_is_let_go(pads: Player) -> None:
@@ -140,7 +141,7 @@ def test_help_names_the_buttons_once_one_is_plugged_in(pads: Player, index: int,
     assert f"Pad {index}" in plugged.toast.text
     pygame.event.post(pygame.event.Event(pygame.JOYBUTTONDOWN, instance_id=10 + index, button=number))
     pads.tick()
-    assert pads.state.browsing is not None  # Start, by the number that this one gives it
+    assert pads.state.of(OpenShelf) is not None  # Start, by the number that this one gives it
     pygame.event.post(pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=10 + index))
     pads.tick()
     assert not pads.state.pad

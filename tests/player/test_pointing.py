@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pygame
 import pytest
-from playing import Player
+from playing import Player, menu_in
 
 from linkanim.picture.board import Board
 from linkanim.picture.figure import figure
@@ -21,6 +21,7 @@ from linkanim.picture.picture import Picture
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.listing import Listing
 from linkanim.player.pointing import Pointed, PointedThing, thing_at, told
 from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import State, begin
@@ -267,9 +268,8 @@ def test_the_class_says_why_it_is_that(here: Path) -> None:
 
 def test_a_right_click_on_a_row_of_numbers_lists_all_commands(rows_shown: Player) -> None:
     rows_shown.mouse(pygame.MOUSEBUTTONDOWN, row_of(rows_shown, "spring force"), button=3)
-    assert rows_shown.state.listing
-    assert rows_shown.state.listing.others
-    assert rows_shown.state.listing.others.title == "Commands"
+    assert rows_shown.state.of(Listing)
+    assert menu_in(rows_shown.state).title == "Commands"
 
 
 def test_every_row_of_numbers_is_under_the_mouse_at_its_place(rows_shown: Player) -> None:

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 
 import pygame
 import pytest
-from playing import Player
+from playing import Player, the
 
 from linkanim.picture.board import Rows
 from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.listing import Listing
 from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, starting
@@ -149,9 +150,9 @@ def test_a_quantity_is_charted_with_a_click(listed: Player) -> None:
     panel = overlay(listed.state).quantities
     assert panel
     wheel(listed, row_place(listed, panel.chosen), -2)
-    assert listed.state.listing
-    assert listed.state.listing.chosen == panel.chosen + 2
-    chosen = listed.state.listing.chosen
+    assert listed.state.of(Listing)
+    assert the(listed.state, Listing).chosen == panel.chosen + 2
+    chosen = the(listed.state, Listing).chosen
     listed.drag(row_place(listed, chosen))
     assert not overlay(listed.state).quantities
     assert listed.state.look.chart == list(listed.state.scene.telling)[chosen]
@@ -171,7 +172,7 @@ def test_boxes_chart_several_quantities_below_each_other_and_the_list_stays(list
     listed.press(pygame.K_RETURN, mod=pygame.KMOD_CTRL)  # the one that is chosen, off again
     assert listed.state.look.chart == telling[1]
     listed.press(pygame.K_ESCAPE)
-    assert not listed.state.listing
+    assert not listed.state.of(Listing)
     assert listed.state.look.chart == telling[1]
 
 

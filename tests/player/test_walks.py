@@ -8,7 +8,7 @@ from typing import Any
 
 import pygame
 import pytest
-from playing import CTRL, SHIFT, NoSearch, Player
+from playing import CTRL, SHIFT, NoSearch, Player, the
 
 from linkanim.export import json_text
 from linkanim.picture.command_bar import bar_cells
@@ -19,6 +19,7 @@ from linkanim.player.actions import advance
 from linkanim.player.commands import menu_of
 from linkanim.player.devices import code
 from linkanim.player.keys import commands
+from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
@@ -141,8 +142,8 @@ def asked_by(player: Player, at: tuple[float, float], *, finger: bool) -> Action
     for event in up:
         window._mouse.actions(event, window.screen)
     picked = next((action for action in found if action.name == "pick"), None)
-    assert player.state.listing
-    return player.state.listing.asked(scene, picked.value) if picked else None  # type: ignore[arg-type]
+    assert player.state.of(Listing)
+    return the(player.state, Listing).asked(scene, picked.value) if picked else None  # type: ignore[arg-type]
 
 
 @pytest.mark.slow
@@ -154,7 +155,7 @@ def test_every_command_is_reached_by_pointing_alone(player: Player) -> None:
     assert shown.over.quantities
     count = len(shown.over.quantities.rows)
     found: dict[int, tuple[Action | None, ...]] = {}
-    strip = next((x for x in range(300, 430, 2) if shown.scrolled_by(x, 300, held=False) is not None), None)
+    strip = next((x for x in range(300, 430, 2) if shown.scrolled_to(x, 300, held=False) is not None), None)
     while len(found) < count:
         before = len(found)
         rows = {shown.row_at(60, y): float(y) for y in range(4, 716, 6)}
@@ -163,7 +164,7 @@ def test_every_command_is_reached_by_pointing_alone(player: Player) -> None:
                 found[row] = tuple(asked_by(player, (60.0, y), finger=finger) for finger in (False, True))
         if len(found) < count:  # the scroll bar leads on
             assert strip
-            track = [y for y in range(2, 718, 2) if shown.scrolled_by(strip, y, held=False) is not None]
+            track = [y for y in range(2, 718, 2) if shown.scrolled_to(strip, y, held=False) is not None]
             share = min((max(found) + 10) / (count - 1), 1.0)
             player.drag((strip, 300), (strip, track[0] + share * (track[-1] - track[0])))
         assert len(found) > before
@@ -190,13 +191,13 @@ def test_every_command_is_reached_by_the_keys_alone(player: Player) -> None:
     expected, asked = wanted(player.state), []
     press(pygame.K_F10)
     for _ in expected:
-        listing = player.state.listing
+        listing = player.state.of(Listing)
         assert listing
         asked.append(listing.asked(player.state.scene, listing.chosen))
         press(pygame.K_DOWN)
     assert asked == expected
     press(pygame.K_ESCAPE)
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None
 
 
 def test_the_keys_of_every_mode_ask_for_its_commands(player: Player) -> None:

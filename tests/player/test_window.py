@@ -14,15 +14,18 @@ from xml.etree import ElementTree
 
 import pygame
 import pytest
-from playing import CTRL, SHIFT, SIZE, Player, fake_start
+from playing import CTRL, SHIFT, SIZE, Player, fake_start, the
 
+from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.picture.view import Rect
 from linkanim.player import beside
 from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
+from linkanim.player.listing import Listing
 from linkanim.player.naming import Naming
+from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import CHIP_FRAMES, FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
@@ -175,7 +178,7 @@ def test_a_number_on_the_shelf_is_a_scene_of_the_chapter(player: Player, number:
     player.type("o")
     player.press(*plain(str(number)))
     assert player.state.scene == load(names()[number - 1])
-    assert player.state.browsing is None
+    assert player.state.of(OpenShelf) is None
 
 
 @pytest.mark.long
@@ -770,14 +773,14 @@ def test_ctrl_o_opens_the_shelf_at_the_scene_files_here_and_puts_one_on(player: 
         save(replace(load(name), name=f"my-{name}"), here)
         os.utime(here / f"my-{name}.toml", (1e9 + n, 1e9 + n))
     player.press(pygame.K_o, CTRL)
-    browsing = player.state.browsing
+    browsing = player.state.of(OpenShelf)
     assert browsing
     assert [one.title for one in browsing.own] == ["my-hart", "my-press"]  # the newest one first
     assert all(one.written.startswith("2001-09-09") for one in browsing.own)
     assert browsing.chosen == len(browsing.entries)
     player.type("my pr")
-    assert player.state.browsing
-    assert player.state.browsing.found == (browsing.chosen + 1,)
+    assert player.state.of(OpenShelf)
+    assert the(player.state, OpenShelf).found == (browsing.chosen + 1,)
     player.press(pygame.K_RETURN)
     assert player.state.scene.name == "my-press"
     assert not player.state.is_covered
@@ -792,19 +795,19 @@ def test_the_shelf_has_the_scene_files_here_in_a_chapter_of_their_own(player: Pl
     save(replace(load("press"), name="my-press"), here)
     (here / "broken.toml").write_text("title = 3")
     player.press(pygame.K_o)
-    browsing = player.state.browsing
+    browsing = player.state.of(OpenShelf)
     assert browsing
     assert browsing.chosen == player.state.place
     player.type("mine")
-    shown = player.state.browsing
+    shown = player.state.of(OpenShelf)
     assert shown
     player.tick(5)
-    grid = player.window.screen.shelf_grid(shown)
+    grid = shelf_grid(player.window.screen.size, shown)
     assert [words for words, _ in grid.headings] == ["Mine"]
     place = next(n for n in grid.cells if (file := shown.file_at(n)) and file.name == "my-press.toml")
     middle = grid.cells[place].middle
     player.drag((middle.real, middle.imag))
-    assert (player.state.browsing, player.state.scene.name) == (None, "my-press")
+    assert (player.state.of(OpenShelf), player.state.scene.name) == (None, "my-press")
     player.press(pygame.K_o)
     player.type("broken")
     player.tick(3)
@@ -845,13 +848,13 @@ def test_a_file_is_opened_before_an_edited_first_mechanism_which_stays_as_it_was
 
 def test_the_list_of_commands_opens_by_a_right_click_and_does_what_is_chosen(player: Player) -> None:
     player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
-    assert player.state.listing
+    assert player.state.of(Listing)
     player.type("coupler")
     player.press(pygame.K_RETURN)
     after = player.state
-    assert after.listing is None
+    assert after.of(Listing) is None
     assert not after.look.trace
     player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
-    assert player.state.listing
+    assert player.state.of(Listing)
     player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
-    assert player.state.listing is None
+    assert player.state.of(Listing) is None

@@ -1,0 +1,249 @@
+"""A mode: the shelf, on which all mechanisms and the current folder's scene files stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
+
+from linkanim.frozen import frozen
+from linkanim.picture.overlay import Browsing, Overlay, OwnFile, Shelf
+from linkanim.player import rules
+from linkanim.player.action import Action, Value
+from linkanim.player.keys import (
+    BACK_BAR,
+    HOME_BAR,
+    LAST_BAR,
+    KeyRow,
+    ModeKeys,
+    TypedKeys,
+    both,
+    digits,
+    enter,
+)
+from linkanim.player.state import Mode, Resolver, Rule, State
+
+if TYPE_CHECKING:
+    from linkanim.picture.shelf import Grid
+    from linkanim.player.devices import Gesture, Mouse, Outside
+    from linkanim.player.screen import Screen
+
+_LONGEST = 40
+_STILL = 0.006
+"""How far the hand may move in a click, in heights of the window."""
+_NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
+
+
+def toggle(state: State, _: None) -> State:
+    """Open the shelf, or close it."""
+    if state.of(OpenShelf):
+        return state.without(OpenShelf)
+    return state.unlisted.with_mode(OpenShelf(state.shelf, state.place, state.frame))
+
+
+def _changed(state: State, work: Callable[[OpenShelf], OpenShelf]) -> State:
+    shelf = state.of(OpenShelf)
+    return state.with_mode(work(shelf)) if shelf else state
+
+
+def _move(state: State, further: int) -> State:
+    """Choose the entry `further` places on among those found; the shelf wraps around."""
+
+    def moved(shelf: OpenShelf) -> OpenShelf:
+        found = shelf.found
+        if shelf.chosen not in found:
+            return shelf
+        return replace(shelf, chosen=found[(found.index(shelf.chosen) + further) % len(found)])
+
+    return _changed(state, moved)
+
+
+def _point(state: State, place: int) -> State:
+    """Choose a place on the shelf."""
+    return _changed(state, lambda one: replace(one, chosen=place) if place in one.found else one)
+
+
+def _top(state: State, row: int) -> State:
+    """Scroll the shelf to a row."""
+    return _changed(state, lambda one: replace(one, top=row))
+
+
+def _sift(state: State, text: str) -> State:
+    """Add letters to what the shelf is searched for."""
+    return _changed(state, lambda one: one.sifted((one.sieve + text)[:_LONGEST]))
+
+
+def _unsift(state: State, _: None) -> State:
+    """Take the last letter off what the shelf is searched for."""
+    return _changed(state, lambda one: one.sifted(one.sieve[:-1]))
+
+
+def _files(state: State, lines: str) -> State:
+    """Put the user's own files on the open shelf: one a line, its name, a tab and its date."""
+    own = tuple(OwnFile(*line.split("\t")[:2]) for line in lines.split("\n") if "\t" in line)
+    opened = state if state.of(OpenShelf) else toggle(state, None)
+    return _changed(opened, lambda one: replace(one, own=own))
+
+
+# What keys and the mouse ask that depends on the rows that are visible, and on the folder.
+
+
+def _grid(window: Outside, shelf: Browsing) -> Grid:
+    from linkanim.picture.shelf import grid
+
+    return grid(window.screen.size, shelf)
+
+
+def _put_chosen(window: Outside, _: Value) -> Iterator[Action]:
+    """Yield the action that shows the chosen mechanism, if the sieve has left one."""
+    shelf = window.state.of(OpenShelf)
+    if shelf and shelf.chosen in shelf.found:
+        yield from _put(window, shelf.chosen)
+
+
+def _put(window: Outside, place: Value) -> Iterator[Action]:
+    """Yield the action that shows what is at a place: a mechanism, or a user's file."""
+    shelf = window.state.of(OpenShelf)
+    file = shelf.file_at(place) if shelf and isinstance(place, int) else None
+    yield from (Action("shelf"), Action("open_file", file.name)) if file else (Action("put", place),)
+
+
+def _opened(window: Outside, _: Value) -> Iterator[Action]:
+    """Yield the actions that open the shelf with the current folder's scene files, or close it."""
+    yield Action("shelf")
+    files = window.scene_files() if window.state.of(OpenShelf) else ()
+    if files:
+        yield Action("files", _listed(files))
+
+
+def _files_here(window: Outside, _: Value) -> Iterator[Action]:
+    """Yield the actions that open the shelf at the current folder's scene files."""
+    files = window.scene_files()
+    if not files:
+        yield Action("note", _NO_FILES)
+        return
+    yield Action("files", _listed(files))
+    yield Action("point", len(window.state.shelf))
+
+
+def _listed(files: Iterable[OwnFile]) -> str:
+    """Return files as the value of an action."""
+    return "\n".join(f"{one.name}\t{one.written}" for one in files)
+
+
+def _moved(window: Outside, further: Value) -> Iterator[Action]:
+    """Yield a step in a list or along the shelf, which scrolls with it."""
+    yield Action("move", further)
+    yield from _in_sight(window)
+
+
+def _row(window: Outside, rows: Value) -> Iterator[Action]:
+    """Yield the action that chooses the mechanism `rows` rows further down."""
+    shelf = window.state.of(OpenShelf)
+    if shelf and isinstance(rows, int):
+        yield Action("point", _grid(window, shelf).beside(shelf.chosen, rows))
+        yield from _in_sight(window)
+
+
+def _in_sight(window: Outside) -> Iterator[Action]:
+    """Yield the action that scrolls to where the chosen entry is visible."""
+    if shelf := window.state.of(OpenShelf):
+        yield Action("top", _grid(window, shelf).top)
+
+
+def _scroll(window: Outside, rows: Value) -> Iterator[Action]:
+    """Yield the actions that scroll by `rows`; the chosen entry stays a visible one."""
+    shelf = window.state.of(OpenShelf)
+    if shelf is None or not isinstance(rows, int):
+        return
+    before = _grid(window, shelf)
+    if not before.rows:
+        return
+    row = min(max(before.top + rows, 0), len(before.rows) - 1)
+    free = _grid(window, replace(shelf, top=row, chosen=before.rows[row][0]))
+    yield Action("top", free.top)
+    if not free.whole(shelf.chosen):
+        # in a low window no entry may be visible as a whole
+        seen = [n for n in free.cells if free.whole(n)] or [*free.cells]
+        yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
+
+
+@frozen
+class OpenShelf(Browsing, Mode):
+    """The open shelf."""
+
+    keys = ModeKeys(
+        "shelf",
+        {
+            "in O": (
+                KeyRow(
+                    "arrows, mouse",
+                    "choose a mechanism",
+                    both("left", "right", "move") + both("up", "down", "row"),
+                ),
+                KeyRow("type", "filter by title or chapter"),
+                KeyRow("1–9", "another of the chapter that is on", digits("select")),
+                KeyRow("PgUp, PgDn, wheel", "scroll", both("pageup", "pagedown", "scroll", 2)),
+                KeyRow("Enter, click", "put it on", enter("put_chosen", "unsift")),
+            )
+        },
+        TypedKeys("sift", frozenset({"space", "h", "o", *"123456789"})),
+    )
+    bar = (BACK_BAR, HOME_BAR, *LAST_BAR)
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "shelf": Rule(rules.nothing, toggle, taped=False),
+        "files": Rule(rules.text, _files, taped=False),  # scene files with their dates, one a line
+        "move": Rule(rules.whole, _move, taped=False),  # places
+        "point": Rule(rules.whole, _point, taped=False),  # the place
+        "top": Rule(rules.whole, _top, taped=False),  # the first visible row
+        "sift": Rule(rules.text, _sift, taped=False),
+        "unsift": Rule(rules.nothing, _unsift, taped=False),
+    }
+    meanings: ClassVar[Mapping[str, Resolver]] = {
+        **{"put": _put, "put_chosen": _put_chosen, "shelf": _opened, "files_here": _files_here},
+        **{"move": _moved, "row": _row, "scroll": _scroll},
+    }
+    gives_way = True
+
+    @property
+    def typing(self) -> bool:
+        """Whether the shelf is filtered."""
+        return bool(self.sieve)
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the shelf."""
+        open_for, still = state.frame - self.since, state.clock.paused
+        return replace(over, shelf=Shelf(self, open_for, state.look.theme, still, state.edited))
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+        """Choose the mechanism under the mouse; a click shows it, and a click elsewhere closes the shelf.
+
+        A drag scrolls: on the pictures these follow the hand, beside them the scroll bar does.
+        """
+        from linkanim.picture.shelf import grid
+
+        (x, y), drag, seen = mouse.at, mouse.drag, grid(screen.size, self)
+        moves = mouse.far > _STILL * screen.size[1]
+        match gesture.kind:
+            case "wheel":
+                return (Action("scroll", -gesture.notches),)
+            case "down":
+                on_track = seen.track is not None and seen.track.holds(x, y)
+                mouse.drag, mouse.steps = "scroll" if on_track else "shelf", seen.top
+                return _scrolled_to(seen.led_to(y), seen.top) if on_track else ()
+            case "up":
+                mouse.drag, place = None, seen.at(x, y)
+                if drag != "shelf" or moves:
+                    return ()
+                return (Action("shelf") if place is None else Action("put", place),)
+        if drag == "scroll":
+            return _scrolled_to(seen.led_to(y), seen.top)
+        if drag == "shelf":
+            to = mouse.steps + round((mouse.begun[1] - y) / seen.step)
+            return _scrolled_to(to, seen.top) if moves else ()
+        place = seen.at(x, y)
+        return () if place is None else (Action("point", place),)
+
+
+def _scrolled_to(row: int, top: int) -> tuple[Action, ...]:
+    return (Action("scroll", row - top),) if row != top else ()
