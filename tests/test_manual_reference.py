@@ -207,34 +207,29 @@ def _member(thing: type, name: str) -> str:
 
 
 _SIZE = 1280, 720
-_PLAYED: Mapping[str, tuple[str, str, str]] = {
-    "plays in": (
-        "any slide program, browser or mail",
-        "slide programs, browsers",
-        "LaTeX `animate`, video editors",
-    ),
-    "loops by itself": ("yes", "set it in the slide program", "as the player is told"),
-    "frame rates that are exact": (
-        "50, 33⅓, 25, 20 and others with whole hundredths of a second",
-        "any",
-        "–",
-    ),
+_PLAYED: Mapping[str, tuple[str, str, str, str]] = {
+    "GIF": ("any slide program, browser or mail", "yes", "whole pixels only", "whole hundredths of a second"),
+    "MP4": ("slide programs, browsers", "set it in the slide program", "none", "any"),
+    "WebM": ("browsers (Safari without transparency)", "as the page says: `<video loop>`", "yes", "any"),
+    "WebP": ("browsers", "yes", "yes, without loss", "whole milliseconds"),
+    "APNG": ("browsers", "yes", "yes, without loss", "any"),
+    "MOV": ("Keynote, video editors", "set it in the program", "yes (ProRes 4444)", "any"),
+    "PNG": ("LaTeX `animate`, video editors", "as the player is told", "yes, without loss", "–"),
 }
+"""Of each format: where it plays, whether it loops by itself, its transparency, the times of its frames."""
 
 
 def formats(folder: Path) -> str:
     """Return what each format of a recording is good for, with the size of one that is made here."""
-    sizes = []
-    for suffix in ("gif", "mp4", "png"):
-        linkanim.record(linkanim.load("press"), folder / f"press.{suffix}", size=_SIZE)
-        sizes.append(sum(file.stat().st_size for file in folder.glob(f"press*.{suffix}")) / 1e6)
     wide, high = _SIZE
-    measured = (
-        f"size of one period of the press at {wide}×{high}",
-        *(f"{significant(size, 2)} MB" for size in sizes),
-    )
-    rows = [(title, *cells) for title, cells in _PLAYED.items()]
-    return _table(("", "GIF", "MP4", "numbered PNG"), iter([*rows[:2], measured, *rows[2:]]))
+    press, rows = linkanim.load("press"), []
+    for form, (plays, loops, alpha, times) in _PLAYED.items():
+        linkanim.record(press, folder / f"press.{form.lower()}", size=_SIZE)
+        size = sum(file.stat().st_size for file in folder.glob(f"press*.{form.lower()}")) / 1e6
+        name = "numbered PNG" if form == "PNG" else form
+        rows.append((name, plays, loops, alpha, times, f"{significant(size, 2)} MB"))
+    titles = ("", "plays in", "loops by itself", "transparency", "times of frames")
+    return _table((*titles, f"the press, {wide}×{high}"), iter(rows))
 
 
 BLOCKS: Mapping[str, tuple[str, Callable[[Path], str]]] = {

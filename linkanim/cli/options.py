@@ -546,7 +546,9 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
     "record": (
         _scene(", or of a tape"),
-        _output("write OUT.gif, OUT.mp4 or numbered OUT.png (default: SCENE.gif in this folder)"),
+        _output(
+            "write OUT.gif, .mp4, .webm, .webp, .apng, .mov or numbered .png (default: SCENE.gif here)"
+        ),
         _takes(
             "--for", dest="preset", choices=tuple(PRESETS), help="take size, rate and format for a purpose"
         ),

@@ -223,7 +223,7 @@ class Look:
     )
     background: bool = _toggle(
         True,
-        Option("transparent", "leave the background out (GIF and PNG)", False, commands=("record",)),
+        Option("transparent", "leave the background out (not of MP4)", False, commands=("record",)),
         Option("transparent", "leave the background out", False, commands=("draw",)),
         steps=(True, False),
     )

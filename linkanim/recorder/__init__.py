@@ -1,4 +1,4 @@
-"""Recordings: frames to GIF, MP4 and numbered PNG.
+"""Recordings: frames to GIF, MP4, WebM, WebP, APNG, MOV and numbered PNG.
 
 From the ground up; a module imports from those before it only:
 

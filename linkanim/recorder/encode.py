@@ -24,6 +24,7 @@ from typing import IO, TYPE_CHECKING
 from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim import child
+from linkanim.bounds import MOST_FRAMES
 from linkanim.errors import RecordingFailed
 from linkanim.frozen import frozen
 from linkanim.recorder.plan import Format
@@ -252,16 +253,19 @@ def _stop(process: subprocess.Popen[bytes], listeners: Iterable[Thread]) -> None
 # Frames go through a pipe as they are drawn, so that drawing and encoding overlap and memory does not grow
 # with their number. A GIF has one palette, which we choose. Its indices are worked out here, only for pixels
 # that changed (ffmpeg's filter took three times as long), and the file holds of each frame what changed. An
-# MP4 is H.264 as slide programs play it, its colours tagged bt709 so that they are shown unchanged.
+# MP4 is H.264 as slide programs play it, its colours tagged bt709 so that they are shown unchanged. Alpha is
+# straight in all formats that have it, as the frames' own is.
 
 COLOURS = 256
 """Colours of a GIF: they follow the indices of each frame, four bytes each."""
 _THREADS = 2
 """Threads of the encoder: fixed, as H.264's bytes depend on their number."""
-_AHEAD = {"gif": 6, "mp4": 20, "png": 6}
-"""How many frames the encoder may have waiting; H.264 looks seventeen ahead."""
+_AHEAD: Mapping[Format, int] = {"mp4": 20, "webm": 20, "webp": MOST_FRAMES}
+_USUAL = 6
+"""How many frames the encoder may have waiting. H.264 and VP9 look some sixteen ahead; WebP's reports none
+before the last, and takes each only when it is done with the one before."""
 _LARGE, _AHEAD_OF_LARGE = 1920 * 1200, 2
-"""Above that many pixels, this many wait and H.264 looks at none ahead: 3840×2160 takes some 30 MB each."""
+"""Above that many pixels, this many wait and none is looked at ahead: 3840×2160 takes some 30 MB each."""
 
 _GIVING_BACK = {"MALLOC_MMAP_THRESHOLD_": "1048576", "MALLOC_ARENA_MAX": "1"}
 """With these glibc frees a frame's memory at once; else each of the encoder's threads keeps some."""
@@ -308,8 +312,9 @@ def encoding(stream: Stream, form: Format, part: Path) -> Iterator[Callable[[Fra
     returns. When the block ends, the encoder has finished; after an exception it is ended. `RecordingFailed`
     where the encoder cannot be started, stops early or reports an error.
     """
-    large = _is_large(stream)
-    ahead, settings = (_AHEAD_OF_LARGE, _GIVING_BACK) if large else (_AHEAD[form], None)
+    ahead, settings = _AHEAD.get(form, _USUAL), None
+    if _is_large(stream) and form != "webp":
+        ahead, settings = _AHEAD_OF_LARGE, _GIVING_BACK
     with running(_command(stream, form, part), ahead=ahead, settings=settings) as write:
         yield write
 
@@ -362,13 +367,7 @@ def _command(stream: Stream, form: Format, part: Path) -> list[str]:
     # without a tag the decoder copies indices byte by byte; with it, rows must be multiples of 4 bytes
     tag = "-tag:v BIT8" if form == "gif" and width % 4 == 0 else ""
     raw = f"-f rawvideo {tag} -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
-    match form:
-        case "gif":
-            into = [*_gif(stream), f"file:{part}"]
-        case "mp4":
-            into = [*_mp4(stream), f"file:{part}"]
-        case "png":
-            into = [*_png(stream), _numbered(part)]
+    into = [*_CODERS[form](stream), _numbered(part) if form == "png" else f"file:{part}"]
     quiet = ["-hide_banner", "-nostdin", "-loglevel", "error", "-y"]
     return [ffmpeg(), *quiet, *raw.split(), *into[:-1], *_EXACT, *_TELLING, into[-1]]
 
@@ -386,20 +385,59 @@ def _numbered(folder: Path) -> str:
 
 def _mp4(stream: Stream) -> list[str]:
     width, height = stream.size
-    filters = ["scale=out_range=tv:out_color_matrix=bt709", "format=yuv420p", _BT709]
+    filters = []
     if width % 2 or height % 2:
         right, bottom = width % 2, height % 2
         filters = [
             "format=gbrp",
             f"pad={width + right}:{height + bottom}",
             f"fillborders=right={right}:bottom={bottom}:mode=smear",
-            *filters,
         ]
     h264 = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-threads", str(_THREADS)]
     h264 += ["-tune", "zerolatency"] if _is_large(stream) else []
-    return ["-vf", ",".join(filters), *h264, "-movflags", "+faststart", "-f", "mp4"]
+    return [*_tagged("yuv420p", *filters), *h264, "-movflags", "+faststart", "-f", "mp4"]
+
+
+def _tagged(pixels: str, *filters: str) -> list[str]:
+    """Return the options that turn frames into such pixels of bt709, after other filters."""
+    chain = [*filters, "scale=out_range=tv:out_color_matrix=bt709", f"format={pixels}", _BT709]
+    return ["-vf", ",".join(chain)]
+
+
+def _webm(stream: Stream) -> list[str]:
+    vp9 = f"-c:v libvpx-vp9 -crf 30 -b:v 0 -deadline good -cpu-used 4 -auto-alt-ref 0 -threads {_THREADS}"
+    ahead = 0 if _is_large(stream) else 16
+    pixels = "yuva420p" if stream.alpha else "yuv420p"
+    return [*_tagged(pixels), *vp9.split(), "-lag-in-frames", str(ahead), "-f", "webm"]
+
+
+def _webp(stream: Stream) -> list[str]:
+    return ["-c:v", "libwebp_anim", "-pix_fmt", "bgra", "-lossless", "1", "-loop", "0", "-f", "webp"]
+
+
+def _apng(stream: Stream) -> list[str]:
+    pixels = "rgba" if stream.alpha else "rgb24"
+    return f"-c:v apng -pix_fmt {pixels} -pred mixed -plays 0 -f apng".split()
+
+
+def _mov(stream: Stream) -> list[str]:
+    pixels, bits = ("yuva444p10le", 16) if stream.alpha else ("yuv444p10le", 0)
+    prores = f"-c:v prores_ks -profile:v 4444 -alpha_bits {bits} -vendor apl0 -threads {_THREADS} -f mov"
+    return [*_tagged(pixels), *prores.split()]
 
 
 def _png(stream: Stream) -> list[str]:
     pixels = "rgba" if stream.alpha else "rgb24"
     return f"-pix_fmt {pixels} -pred mixed -start_number 1 -f image2".split()
+
+
+_CODERS: Mapping[Format, Callable[[Stream], list[str]]] = {
+    "gif": _gif,
+    "mp4": _mp4,
+    "png": _png,
+    "webm": _webm,
+    "webp": _webp,
+    "apng": _apng,
+    "mov": _mov,
+}
+"""The encoder's options for each format."""

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 # Drawn frames to a file that loops.
 
-SUFFIXES = (".gif", ".mp4", ".png")
+SUFFIXES = (".gif", ".mp4", ".png", ".webm", ".webp", ".apng", ".mov")
 Progress = Callable[[int, int], None]
 
 _SAMPLES = 8
@@ -91,13 +91,13 @@ class Recording:
         return self.plan.speed
 
     def _repr_html_(self) -> str | None:
-        """Show a GIF or MP4 in a notebook, the file itself within the page."""
+        """Show it in a notebook, the file itself within the page; numbered frames and MOV are not."""
         data = base64.b64encode(self.path.read_bytes()).decode()
         match self.path.suffix.lower():
-            case ".gif":
-                return f'<img src="data:image/gif;base64,{data}" width="{self.size[0]}">'
-            case ".mp4":
-                source = f'src="data:video/mp4;base64,{data}" width="{self.size[0]}"'
+            case ".gif" | ".webp" | ".apng" as suffix:
+                return f'<img src="data:image/{suffix[1:]};base64,{data}" width="{self.size[0]}">'
+            case ".mp4" | ".webm" as suffix:
+                source = f'src="data:video/{suffix[1:]};base64,{data}" width="{self.size[0]}"'
                 return f"<video {source} autoplay loop muted controls></video>"
         return None
 
@@ -136,7 +136,10 @@ def write(frames: Frames, plan: Plan, path: Target, progress: Progress | None = 
     target = output.path
     refuse_size(frames.size)
     if frames.alpha and form == "mp4":
-        raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
+        raise BadInput(
+            f"{target.name}: MP4 has no transparency; record a WebM, WebP, APNG, MOV, GIF or PNG,"
+            " or keep the background"
+        )
     made = [target]
     if form == "png":  # NAME-0001.png, NAME-0002.png, ...
         numbers = range(1, plan.frames + 1)
@@ -269,7 +272,7 @@ def record(
     steps: int | None = None,
     progress: Progress | None = None,
 ) -> Recording:
-    """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
+    """Record whole periods of a scene's motion to a file, in the format that the path's ending stands for.
 
     `size` is in pixels. `speed` is dφ/dt in rad/s, the scene's own if it is None. `seconds` sets the length
     instead of `periods` (true periods); the clip need not close then. `start` is the phase of the first

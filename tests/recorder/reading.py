@@ -15,30 +15,33 @@ Pixels = NDArray[np.uint8]
 
 
 def frames_of(path: Path, mode: str = "RGB") -> list[Pixels]:
-    """Return the frames of a GIF, or the one of a PNG, as a viewer shows them."""
+    """Return the frames of a GIF, WebP or APNG, or the one of a PNG, as a viewer shows them."""
     with Image.open(path) as image:
         return [np.asarray(frame.convert(mode)) for frame in ImageSequence.Iterator(image)]
 
 
 def durations(path: Path) -> list[int]:
-    """Return how long each frame of a GIF stands, in ms."""
+    """Return how long each frame of a GIF, WebP or APNG stands, in ms."""
     with Image.open(path) as image:
         return [frame.info["duration"] for frame in ImageSequence.Iterator(image)]
 
 
 def loops_for_ever(path: Path) -> bool:
-    """Tell whether a GIF says that it begins again, without end."""
+    """Tell whether a GIF, WebP or APNG says that it begins again, without end."""
     with Image.open(path) as image:
         return image.info.get("loop") == 0
 
 
-def video(path: Path) -> list[Pixels]:
-    """Return an MP4's frames."""
+def video(path: Path, mode: str = "RGB") -> list[Pixels]:
+    """Return the frames of an MP4, WebM, MOV or APNG."""
     width, height = map(int, re.findall(r" ([1-9]\d+)x(\d+)", about(path))[0])
-    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
-    command = [get_ffmpeg_exe(), "-v", "error", "-i", str(path), *raw]
+    pixels = {"RGB": "rgb24", "RGBA": "rgba"}[mode]
+    raw = ["-f", "rawvideo", "-pix_fmt", pixels, "-fps_mode", "passthrough", "-"]
+    # of VP9's alpha only this decoder knows
+    decoder = ["-c:v", "libvpx-vp9"] if path.suffix == ".webm" else []
+    command = [get_ffmpeg_exe(), "-v", "error", *decoder, "-i", str(path), *raw]
     done = subprocess.run(command, capture_output=True, check=True)
-    return [*np.frombuffer(done.stdout, np.uint8).reshape(-1, height, width, 3)]
+    return [*np.frombuffer(done.stdout, np.uint8).reshape(-1, height, width, len(mode))]
 
 
 def about(path: Path) -> str:

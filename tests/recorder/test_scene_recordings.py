@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from PIL import Image
-from reading import durations, frames_of, loops_for_ever
+from reading import Pixels, about, durations, frames_of, loops_for_ever, video
 
 from linkanim.bench.command import CHART
 from linkanim.cli import main
@@ -162,6 +163,58 @@ def test_a_transparent_recording_has_no_background(tmp_path: Path, form: str) ->
     for picture in pictures:
         assert not picture[[0, -1], -1, 3].any()
         assert (picture[..., 3] > 128).sum() > 100
+
+
+# how far a frame laid on a ground may be from the same frame as PNG: at most, and on the mean of its rims
+ALPHA = {"webp": (0.0, 0.0), "apng": (0.0, 0.0), "mov": (4.0, 1.0), "webm": (130.0, 2.5)}
+
+
+@pytest.fixture(scope="module")
+def bare(tmp_path_factory: pytest.TempPathFactory) -> list[Pixels]:
+    """A crank-rocker without its background, as numbered PNG."""
+    folder = tmp_path_factory.mktemp("bare")
+    record(
+        load("crank-rocker"), folder / "out.png", size=(321, 181), seconds=0.4, look=Look(background=False)
+    )
+    return [frames_of(path, "RGBA")[0] for path in sorted(folder.glob("*.png"))]
+
+
+@pytest.mark.parametrize("form", ALPHA)
+def test_without_its_background_a_recording_has_no_fringe_on_any_ground(
+    tmp_path: Path, bare: list[Pixels], form: str
+) -> None:
+    path = tmp_path / f"out.{form}"
+    record(load("crank-rocker"), path, size=(321, 181), seconds=0.4, look=Look(background=False))
+    pictures = (frames_of if form == "webp" else video)(path, "RGBA")  # Pillow lays some of APNG's wrongly
+    assert len(pictures) == len(bare) == 10
+    most, mean = ALPHA[form]
+    for picture, wanted in zip(pictures, bare, strict=True):
+        rims = (wanted[..., 3] > 0) & (wanted[..., 3] < 255)
+        for ground in ((255, 255, 255), (0, 0, 0), (0, 0, 200)):
+            off = laid_on(picture, ground) - laid_on(wanted, ground)
+            assert abs(off).max() <= most
+            assert (abs(off[rims].mean(axis=0)) <= mean).all()
+
+
+def laid_on(picture: Pixels, ground: tuple[int, int, int]) -> NDArray[np.float64]:
+    share = picture[..., 3:] / 255.0
+    return np.asarray(picture[..., :3] * share + np.array(ground) * (1.0 - share), np.float64)
+
+
+@pytest.mark.parametrize("form", ["webp", "apng", "webm", "mov"])
+def test_with_its_background_a_recording_is_opaque_and_as_long_as_its_period(
+    tmp_path: Path, form: str
+) -> None:
+    made = record(load("crank-rocker"), tmp_path / f"out.{form}", size=(96, 54), fps=7)
+    assert made.frames == 21
+    assert made.seconds == 3.0
+    if form in ("webp", "apng"):
+        assert loops_for_ever(made.path)
+        assert all((picture[..., 3] == 255).all() for picture in frames_of(made.path, "RGBA"))
+    else:
+        assert len(video(made.path)) == 21
+        assert "bt709" in about(made.path)
+        assert "Duration: 00:00:03.00" in about(made.path)
 
 
 # why, what is asked beside scene and path
