@@ -14,7 +14,6 @@ From the ground up; a module imports from those before it only:
     pencil     actions of the pencil, which draws a stroke
     posing     actions that set down poses
     building   actions of the sheet, on which a linkage is built
-    making     actions on the steps of a construction, and on layers to be made
     pointing   what is under the mouse, and the words about it
     shown      the state as an overlay
     framing    the picture that fits a state, and the change to the next one
@@ -22,6 +21,7 @@ From the ground up; a module imports from those before it only:
     devices    keyboard, touch, gamepads, mouse
     listing    a mode: the list of quantities, or of commands
     shelving   a mode: the shelf
+    making     the steps of a construction; a mode: layers in which a scene can be made
     naming     a mode: the name of the file to be written
     taking     a mode: how a recording is made, and where it goes
     modes      all modes, and the one table of their keys

@@ -233,8 +233,6 @@ def back(state: State, _: None) -> State:
         return building.let_go(state) or building.left(state)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=nothing_begun(state.editing))
-    if state.layers:
-        return making.closed(state)
     if state.place_typed:
         return replace(state, place_typed="", chip=None)
     if state.editing.open:
@@ -305,7 +303,7 @@ def play(state: State, words: str) -> State:
     if state.beneath is None:
         state = drop(left(state), None)
         state = replace(state, beneath=replace(state.unlisted, help=False))
-    bare = replace(state.unlisted, glide=None, home=None, toast=None, layers=None)
+    bare = replace(state, modes=(), glide=None, home=None, toast=None)
     bare = replace(bare, also=(), place_typed="", chip=None)
     editing = Editing()
     return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
@@ -320,7 +318,8 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    resumed = replace(resumed, kiosk=state.kiosk, take=state.take, modes=state.unlisted.modes)
+    resumed = replace(resumed, kiosk=state.kiosk, take=state.take)
+    resumed = replace(resumed, modes=(*under.modes, *state.unlisted.modes))
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -542,9 +541,6 @@ ACTIONS: Mapping[str, Rule] = {
     "rebuild": Rule(rules.nothing, building.redo, answer=_stuck("nothing to redo")),
     "construct": Rule(rules.whole, making.construct),  # steps further
     "construction": Rule(rules.one_of(*get_args(ConstructionKind)), making.construction),
-    "layers": Rule(rules.nothing, making.layers),
-    "layered": Rule(rules.text, making.found),  # the layers as `linkanim make --json` prints them
-    "lift": Rule(rules.whole, making.lift),  # steps
     "slide": Rule(rules.whole, making.slide),  # the step of the slider that is shown
     "back": Rule(rules.nothing, back),
     "take_toast": Rule(rules.nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
@@ -596,10 +592,6 @@ _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace", "poses"}
 """Actions for which a sheet is left first."""
 _IN_THE_LIST = frozenset({"closure", "reset", "returns"})
 """Those of these actions that stay on the sheet while the list of dimensions is open on it."""
-_OFF_THE_LAYERS = frozenset(
-    {"edit", "pencil", "own_trace", "poses", "build", "build_on", "sheet", "draft", "photo"}
-)
-"""Actions on the linkage itself, for which the layers are closed first."""
 Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
@@ -632,8 +624,8 @@ def aged(state: State) -> State:
     over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     state = building.rested(come(state) if state.sketch else state)
-    if state.layers and state.layers.scene is not state.scene:
-        state = making.asked(state)
+    for mode in state.modes:
+        state = mode.aged(state)
     if state.glide:
         state = _tried(state, Action("glide"), _followed, lambda before: replace(before, glide=None))
     return _tried(state, Action("play"), state.game.aged, leave) if state.game else state
@@ -645,7 +637,7 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
         if state.by_itself:
             return leave(state)
-    own = state.top.actions if state.top else {}
+    own = {name: rule for mode in state.modes for name, rule in mode.actions.items()}
     beside = BESIDE | _SHEETS | {*own, *(["back"] if own else [])}
     if state.game and action.name not in beside:
         return _in_a_game(state, state.game, action)
@@ -659,8 +651,8 @@ def carried(state: State, action: Action) -> State:
     numbers = state.mode == "numbers"
     if action.name in _OFF_THE_SHEET and not (numbers and action.name in _IN_THE_LIST):
         state = building.left(state)
-    if action.name in _OFF_THE_LAYERS:
-        state = making.closed(state)
+    for mode in reversed(state.modes):
+        state = mode.before(state, action)
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
 

@@ -100,14 +100,6 @@ _HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
     "pencil": _PENCIL,
     "poses": _POSES,
     **{"build": _SHEET, "numbers": _SHEET},
-    "layers": (
-        *(BACK_BAR, HOME_BAR, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
-        *(
-            BarEntry("farther", Action("lift", 1), 4),
-            BarEntry("save", Action("make"), 3, leads=True),
-            *LAST_BAR,
-        ),
-    ),
     "game": (BACK_BAR, HOME_BAR, *LAST_BAR),
 }
 

@@ -398,14 +398,13 @@ class Mouse:
             return (Action("take_toast"),)
         if screen.state.help and self.drag is None and not screen.over.shelf:
             return self._on_the_help(screen) if gesture.kind == "down" else ()
+        if self.drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self.at)):
+            return self._on_the_slider(gesture, screen)
         top = screen.state.top
         if top and (found := top.mouse(gesture, self, screen)) is not None:
             return found
-        if self.drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self.at)):
-            return self._on_the_slider(gesture, screen)
         modes = {
             "poses": self._of_the_poses,
-            "layers": self._of_the_layers,
             **{"build": self._of_the_sheet, "numbers": self._of_the_numbers, "edit": self._of_the_tools},
             "pencil": self._of_the_pencil,
             "game": self._in_a_game,
@@ -715,13 +714,6 @@ class Mouse:
         if gesture.kind == "up":
             return (Action("drop"),)
         return (Action("slide", screen.slid(self.at[0])),) if gesture.kind in ("down", "move") else ()
-
-    def _of_the_layers(self, gesture: Gesture, _: Screen) -> tuple[Action, ...] | None:
-        """Shift the parts, which have no crank pin to drag; None where the mouse acts as usual."""
-        if gesture.kind == "down":
-            self.drag = "pan"
-            return ()
-        return None
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
         if self._is_at_pin(screen):

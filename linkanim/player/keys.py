@@ -320,11 +320,6 @@ _IN_A_MODE: Table = {
         KeyRow("↑ ↓", "choose", both("down", "up", "raise")),
         KeyRow("Esc", "out of it", ()),
     ),
-    "in F6": (
-        KeyRow("↑ ↓, slider", "lift the layers off each other", both("down", "up", "lift")),
-        KeyRow("Enter", "write the parts, as pages to print, into a folder", on("return kp_enter", "make")),
-        KeyRow("Esc, F6", "the linkage again"),
-    ),
     "in F2": (
         KeyRow(
             "click, drag",
@@ -445,7 +440,6 @@ OF_MODES: tuple[ModeKeys, ...] = (
     _in("poses", "in F4"),
     _in("game", "in a game"),
     _in("build", "in F2", TypedKeys("digits", begins="123456789.-")),
-    _in("layers", "in F6"),
 )
 
 

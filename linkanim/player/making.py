@@ -1,24 +1,31 @@
-"""Actions on a scene's construction and making: the steps of a construction, layers, parts."""
+"""Actions on the steps of a construction; and a mode: the layers in which a scene can be made."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section
 from linkanim.mechanics.linkage import Linkage
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
-from linkanim.picture.look import ConstructionKind
+from linkanim.picture.look import ConstructionKind, Look
+from linkanim.picture.overlay import LayersShown, Overlay, SliderShown
 from linkanim.picture.raster import Loop
 from linkanim.picture.shapes import disc, hull
+from linkanim.player import rules
+from linkanim.player.action import Action
 from linkanim.player.edits import drop, exchanged, followed
+from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, BarEntry, KeyRow, ModeKeys, both, enter
+from linkanim.player.shown import FAMILY
 from linkanim.player.state import (
-    FAMILY,
-    LIFTED,
     Held,
-    Layering,
+    Mode,
+    Rule,
     State,
     cleared,
     with_effect,
@@ -26,15 +33,24 @@ from linkanim.player.state import (
     with_undo,
 )
 from linkanim.scenes.scene import Scene
+from linkanim.units import significant
+
+if TYPE_CHECKING:
+    from linkanim.player.devices import Gesture, Mouse
+    from linkanim.player.screen import Screen
 
 _MADE = Intake("the layers of a linkage", most_bytes=10_000_000, most_values=1_000_000)
 _WHERE, _DAMAGED = "the layers", "are damaged, or not what linkanim make prints"
 _MOST_LAYERS = 1_000
+LIFTED = 20
+"""Steps by which layers are lifted off each other, from flat to as far as there is room."""
+_CLOSE = frozenset({"edit", "pencil", "own_trace", "poses", "build", "build_on", "sheet", "draft", "photo"})
+"""Actions on the linkage itself, for which the layers are closed first."""
 
 
 def layers(state: State, _: None) -> State:
     """Show the layers in which the scene can be made, once they are found; or the scene again."""
-    if state.layers:
+    if state.of(Layering):
         return closed(state)
     bare = drop(replace(state.unlisted, glide=None, toast=None), None)
     return asked(replace(bare, faded=state.frame))
@@ -42,18 +58,19 @@ def layers(state: State, _: None) -> State:
 
 def closed(state: State) -> State:
     """Return the state without layers: its scene is drawn as a linkage again."""
-    return replace(state, layers=None, faded=state.frame) if state.layers else state
+    return replace(state.without(Layering), faded=state.frame) if state.of(Layering) else state
 
 
 def asked(state: State) -> State:
     """Return the state with the layers of its scene asked for."""
-    lifted = state.layers.lifted if state.layers else 0
-    return with_effect(replace(state, layers=Layering(state.scene, lifted=lifted)), "layers")
+    before = state.of(Layering)
+    lifted = before.lifted if before else 0
+    return with_effect(state.with_mode(Layering(state.scene, lifted=lifted)), "layers")
 
 
 def found(state: State, text: str) -> State:
     """Show the layers that `linkanim make --json` has printed, or say why there are none."""
-    shown = state.layers
+    shown = state.of(Layering)
     if shown is None:
         return state
     document = _MADE.parsed(text, _WHERE, _DAMAGED)
@@ -61,19 +78,20 @@ def found(state: State, text: str) -> State:
         raise BadInput(f"{_WHERE}: {_DAMAGED}")
     top = Section(_WHERE, document)
     if document.get("refused") is not None:
-        return replace(state, layers=shown._replace(refused=top.text("refused"), text=text))
-    return replace(state, layers=shown._replace(parts=_parts(shown.scene, top), text=text))
+        return state.with_mode(replace(shown, refused=top.text("refused"), text=text))
+    return state.with_mode(replace(shown, parts=_parts(shown.scene, top), text=text))
 
 
 def lift(state: State, by: int) -> State:
     """Lift the layers further off each other, by a number of steps."""
-    return lift_to(state, state.layers.lifted + by) if state.layers else state
+    shown = state.of(Layering)
+    return lift_to(state, shown.lifted + by) if shown else state
 
 
 def lift_to(state: State, step: int) -> State:
     """Lift the layers off each other to a step of the slider."""
-    lifted = min(max(step, 0), LIFTED)
-    return replace(state, layers=state.layers and state.layers._replace(lifted=lifted))
+    shown = state.of(Layering)
+    return state.with_mode(replace(shown, lifted=min(max(step, 0), LIFTED))) if shown else state
 
 
 def construct(state: State, further: int) -> State:
@@ -99,7 +117,7 @@ def slide(state: State, step: int) -> State:
 
     However far it is moved, undo goes back to where it was grasped.
     """
-    if state.layers or not state.constructed:
+    if state.of(Layering) or not state.constructed:
         return lift_to(state, step)
     held = state.held or Held("", state.scene, state.phase, not state.clock.paused)
     scene, steps = _member(held.scene, step), state.constructed
@@ -206,3 +224,84 @@ def _loop(part: Section, key: str) -> Loop:
     if len(points) < 3:
         raise part.error(key, "must be three corners or more")
     return np.array([complex(*point) for point in points])
+
+
+@frozen
+class Layering(Mode):
+    """The layers of a scene: its parts once they are known, or a sentence on why it cannot be made.
+
+    They are `lifted` by so many steps; `text` is the result of `linkanim make`, as a tape keeps it.
+    """
+
+    scene: Scene
+    parts: Layered | None = None
+    refused: str = ""
+    lifted: int = 0
+    text: str = ""
+
+    keys = ModeKeys(
+        "layers",
+        {
+            "in F6": (
+                KeyRow("↑ ↓, slider", "lift the layers off each other", both("down", "up", "lift")),
+                KeyRow("Enter", "write the parts, as pages to print, into a folder", enter("make")),
+                KeyRow("Esc, F6", "the linkage again"),
+            )
+        },
+    )
+    bar = (
+        *(BACK_BAR, HOME_BAR, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
+        *(
+            BarEntry("farther", Action("lift", 1), 4),
+            BarEntry("save", Action("make"), 3, leads=True),
+            *LAST_BAR,
+        ),
+    )
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "layers": Rule(rules.nothing, layers),
+        "layered": Rule(rules.text, found),  # the layers as `linkanim make --json` prints them
+        "lift": Rule(rules.whole, lift),  # steps
+    }
+    has_head, is_paper = True, True
+
+    def look(self, look: Look) -> Look:
+        """Return the look of the picture: bare, at the same zoom and pan."""
+        return Look(theme=look.theme, hud=False, zoom=look.zoom, pan=look.pan)
+
+    def before(self, state: State, action: Action) -> State:
+        """Close the layers for an action on the linkage itself."""
+        return closed(state) if action.name in _CLOSE else state
+
+    def aged(self, state: State) -> State:
+        """Ask for the layers of another scene, once it is there."""
+        return state if self.scene is state.scene else asked(state)
+
+    def closed(self, state: State) -> State:
+        """Return the state with the linkage again."""
+        return closed(state)
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the parts in layers, words about them, and a slider.
+
+        In the frame in which another scene appears the layers are still those of the one before, and not
+        shown.
+        """
+        is_own = self.scene is state.scene
+        parts, refused = (self.parts, self.refused) if is_own else (None, "")
+        if parts is None:
+            waits = f"{state.scene.title}: looking for layers in which it can turn"
+            return replace(over, layers=LayersShown(sentence=refused or waits, is_warning=bool(refused)))
+        times = "in true size" if parts.ratio == 1 else f"{significant(parts.ratio, 3)} times as large"
+        on = f"{parts.layers} layer{'s' * (parts.layers != 1)} on the ground"
+        facts = f"{len(parts.plates)} parts, {len(parts.pins)} pins, {times}", "Enter writes the parts"
+        shown = LayersShown(parts, self.lifted / LIFTED, f"{self.scene.title}: {on}", facts)
+        slider = SliderShown("layers", "flat", "lifted", LIFTED, self.lifted)
+        return replace(over, layers=shown, slider=slider)
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Shift the parts, which have no crank pin to drag; None where the mouse acts as usual."""
+        del screen
+        if gesture.kind != "down":
+            return None
+        mouse.drag = "pan"
+        return ()

@@ -346,7 +346,8 @@ class Screen:
         Beside a linkage it is the place of the linkage that is nearest: zoomed about that, it stays in sight.
         """
         last, state = self._framing.last, self.state
-        if not (state.building or state.layers or (state.sketch and state.sketch.is_blank)):
+        is_paper = any(one.is_paper for one in state.modes)
+        if not (is_paper or state.building or (state.sketch and state.sketch.is_blank)):
             box, view = last.figure.box, last.view
             (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
             x, y = min(max(x, left), right), min(max(y, top), low)
@@ -479,7 +480,9 @@ class Screen:
 
     def slider_at(self, x: float, y: float) -> bool:
         """Return whether a pixel lies on the slider that is shown."""
-        return self.over.slider is not None and slider_rect(self._framing.last.layout).holds(x, y)
+        return bool(self.over.slider and not self.over.shelf) and slider_rect(
+            self._framing.last.layout
+        ).holds(x, y)
 
     def slid(self, x: float) -> int:
         """Return the step of the slider that is nearest to a pixel's column."""

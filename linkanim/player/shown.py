@@ -26,7 +26,6 @@ from linkanim.picture.overlay import (
     DraftShown,
     EditRow,
     Fading,
-    LayersShown,
     Overlay,
     Panel,
     PathShown,
@@ -47,15 +46,12 @@ from linkanim.player.pointing import Pointed, told
 from linkanim.player.posing import free_joints
 from linkanim.player.state import (
     DIAL,
-    FAMILY,
     FLASH_FRAMES,
     LARGEST_DIAL,
-    LIFTED,
     SHUTTER_FRAMES,
     BuildSheet,
     Changeover,
     Grip,
-    Layering,
     PathSketch,
     PoseSketch,
     Sketch,
@@ -278,7 +274,8 @@ _FREE = {
 """The linkages that can be found, by the number of poses."""
 _MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
 """The tool that is in hand beside the list of dimensions."""
-_MAKE_HINT = "Enter writes the parts"
+FAMILY = 100
+"""Steps from one end of a family of linkages to the other."""
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = r"\b[^\W\d_]\w*"
@@ -358,7 +355,6 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
         poses=_poses(state, state.posing) if state.posing else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
-        layers=_layers(state.scene, state.layers) if state.layers else None,
         construction=state.constructed,
         slider=_slider(state),
     )
@@ -392,25 +388,8 @@ def _stands(state: State) -> bool:
     return state.clock.paused and not (state.grasp and state.grasp.ran)
 
 
-def _layers(scene: Scene, shown: Layering) -> LayersShown:
-    """Return a scene's parts in layers with words about them.
-
-    In the frame in which another scene appears, the layers are still those of the one before, and not shown.
-    """
-    parts, refused = (shown.parts, shown.refused) if shown.scene is scene else (None, "")
-    if parts is None:
-        waits = f"{scene.title}: looking for layers in which it can turn"
-        return LayersShown(sentence=refused or waits, is_warning=bool(refused))
-    times = "in true size" if parts.ratio == 1 else f"{significant(parts.ratio, 3)} times as large"
-    on = f"{parts.layers} layer{'s' * (parts.layers != 1)} on the ground"
-    facts = f"{len(parts.plates)} parts, {len(parts.pins)} pins, {times}", _MAKE_HINT
-    return LayersShown(parts, shown.lifted / LIFTED, f"{shown.scene.title}: {on}", facts)
-
-
 def _slider(state: State) -> SliderShown | None:
     """Return the slider for what is shown; None where it has none."""
-    if state.layers and state.layers.parts and state.layers.scene is state.scene:
-        return SliderShown("layers", "flat", "lifted", LIFTED, state.layers.lifted)
     if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
         return None
     from linkanim.synthesis.quick_returns import member_of

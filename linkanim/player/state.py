@@ -28,7 +28,6 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
-from linkanim.picture.layered import Layered
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.view import Box, eased
@@ -614,27 +613,6 @@ class PoseSketch(Sketch):
         return answer.scene(self.unit, self.poses, towards)
 
 
-# The layers in which the present scene can be made.
-
-LIFTED = 20
-"""Steps by which layers are lifted off each other, from flat to as far as there is room."""
-FAMILY = 100
-"""Steps from one end of a family of linkages to the other."""
-
-
-class Layering(NamedTuple):
-    """The layers of a scene: its parts once they are known, or a sentence on why it cannot be made.
-
-    They are `lifted` by so many steps; `text` is the result of `linkanim make`, as a tape keeps it.
-    """
-
-    scene: Scene
-    parts: Layered | None = None
-    refused: str = ""
-    lifted: int = 0
-    text: str = ""
-
-
 # The player's state: all that one frame of the window shows, as a frozen value.
 #
 # What must be done outside (a screenshot, full screen, a file to write) is left in `State.effects`,
@@ -709,7 +687,8 @@ class Mode:
     Modes are frozen values on the state's stack `modes`; equal ones look the same. Keys, mouse and Esc are
     for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
     depend on what is visible, or outside. One that `is_listed` takes the room of a list; one that
-    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input.
+    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input. One that
+    `has_head` has words above the linkage; what is drawn on one that `is_paper` can be shifted anywhere.
     """
 
     keys: ClassVar[ModeKeys]
@@ -719,6 +698,8 @@ class Mode:
     is_listed: ClassVar[bool] = False
     gives_way: ClassVar[bool] = False
     leads: ClassVar[bool] = False
+    has_head: ClassVar[bool] = False
+    is_paper: ClassVar[bool] = False
 
     @property
     def typing(self) -> bool:
@@ -729,6 +710,19 @@ class Mode:
     def title(self) -> str:
         """The title of its panel, where there are several; else empty."""
         return ""
+
+    def look(self, look: Look) -> Look:
+        """Return the look of the picture under the mode."""
+        return look
+
+    def before(self, state: State, action: Action) -> State:
+        """Return the state in which an action that is not of the mode is carried out."""
+        del action
+        return state
+
+    def aged(self, state: State) -> State:
+        """Return the state, which is a frame older already, with the effect of time on the mode."""
+        return state
 
     def closed(self, state: State) -> State:
         """Return the state after Esc or the back arrow: without the mode, unless it has to let go first."""
@@ -781,10 +775,9 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab goes through, by their catalogue names or as scenes, and `place` is
-    that of the present one. `sketch` the
-    pencil's stroke or poses, `sheet` the sheet, which may be closed. `layers` are those in which the scene
-    can be made, while they are shown; `construction` has the scene whose construction is drawn, and how many
-    steps of it. `kept` has the edited scenes of other places.
+    that of the present one. `sketch` is the pencil's stroke or poses, `sheet` the sheet, which may be closed.
+    `construction` has the scene whose construction is drawn, and how many steps of it. `kept` has the edited
+    scenes of other places.
 
     `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
     `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
@@ -824,7 +817,6 @@ class State:
     kept: tuple[Edited, ...] = ()
     sketch: Sketch | None = None
     sheet: BuildSheet | None = None
-    layers: Layering | None = None
     construction: tuple[Scene, int] | None = None
     game: Game | None = None
     games: Callable[[str], Game] | None = None
@@ -905,8 +897,6 @@ class State:
             return "poses" if self.posing else "pencil"
         if self.building:
             return "build"
-        if self.layers:
-            return "layers"
         return "paused" if self.clock.paused else "play"
 
     @property

@@ -12,6 +12,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_taped, leave
 from linkanim.player.building import stored_text
 from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.making import Layering
 from linkanim.player.state import LARGEST_DIAL, PoseSketch, State
 from linkanim.scenes.scene import Scene
 
@@ -96,7 +97,7 @@ def resumed(state: State) -> Iterator[Action]:
     if state.game:
         yield Action("play", state.game.words)
         return
-    layers = state.layers
+    layers = state.of(Layering)
     if state.constructed:
         yield Action("construct", state.constructed)
     if layers:

@@ -35,6 +35,7 @@ from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard,
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
 from linkanim.player.keys import bind_of
+from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
@@ -251,7 +252,7 @@ class Window:
 
     def _layered(self) -> Iterator[Action]:
         """Yield the action with the layers that the state waits for, once they are found."""
-        making, shown = self._layering, self.state.layers
+        making, shown = self._layering, self.state.of(Layering)
         if making and making.done:
             if shown and shown.scene is making.scene:
                 yield Action("layered", making.found())

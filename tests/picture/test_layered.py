@@ -15,6 +15,7 @@ from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.making import Layering
 from linkanim.player.state import begin
 from linkanim.scenes import load
 from linkanim.workshop.request import make
@@ -28,8 +29,8 @@ def test_numbers_stand_on_what_is_seen_of_their_parts_and_off_other_words(name: 
     scene = load(name)
     state = advance(begin(scene), [Action("layers")])
     state = advance(state, [Action("layered", json_text(make(scene, fit="A4").as_object()))])
-    assert state.layers
-    parts = state.layers.parts
+    shown = state.of(Layering)
+    parts = shown and shown.parts
     assert parts
     view = LayerView.fitting(parts.reach, parts.layers, 0.0, Rect(20, 20, 900, 500))
     numbered = {plate.number for plate in parts.plates if plate.layer}

@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 import pygame
 import pytest
-from playing import SHIFT, Player, fake_start, menu_in
+from playing import SHIFT, Player, fake_start, menu_in, the
 
 from linkanim.export import json_text
 from linkanim.picture.command_bar import bar_cells
@@ -31,9 +31,10 @@ from linkanim.player.actions import advance
 from linkanim.player.beside import Making
 from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
+from linkanim.player.making import LIFTED, Layering
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.shown import overlay
-from linkanim.player.state import LIFTED, State, begin
+from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
 from linkanim.scenes import load
 from linkanim.scenes.scene import TimeRatioPurpose
@@ -79,9 +80,10 @@ def test_layers_are_asked_for_at_once_and_shown_when_they_are_found(text: str) -
 def test_what_is_read_back_is_drawn_as_what_was_made(name: str) -> None:
     made = make(load(name), fit="A4")
     state = after(begin(load(name)), "layers", Action("layered", json_text(made.as_object())))
-    assert state.layers
-    assert state.layers.parts
-    read, drawn = state.layers.parts, made.layered
+    assert state.of(Layering)
+    assert the(state, Layering).parts
+    read, drawn = the(state, Layering).parts, made.layered
+    assert read
     assert read.ratio == pytest.approx(drawn.ratio)
     by_number = {plate.number: plate for plate in read.plates}
     pose = made.scene.pose(1.0, 0)
@@ -118,24 +120,24 @@ def test_what_cannot_be_made_is_said_in_a_sentence() -> None:
 )
 def test_a_tape_with_damaged_layers_shows_none(damaged: str) -> None:
     state = after(begin(load("jansen")), "layers", Action("layered", damaged))
-    assert state.layers is not None
-    assert state.layers.parts is None
+    assert state.of(Layering)
+    assert the(state, Layering).parts is None
     assert state.toast is not None
     assert "the layers" in state.toast.text
 
 
 def test_layers_of_another_scene_are_refused(text: str) -> None:
     state = after(begin(load("crank-rocker")), "layers", Action("layered", text))
-    assert state.layers is not None
-    assert state.layers.parts is None
+    assert state.of(Layering)
+    assert the(state, Layering).parts is None
     assert state.toast is not None
     assert "a joint that the linkage does not have" in state.toast.text
 
 
 def test_layers_are_lifted_step_by_step_from_flat_to_all_the_room(shown: State) -> None:
-    assert after(shown, Action("lift", -1)).layers == shown.layers
-    high = after(shown, *[Action("lift", 1)] * (LIFTED + 3)).layers
-    slid = after(shown, Action("slide", LIFTED)).layers
+    assert after(shown, Action("lift", -1)).of(Layering) == shown.of(Layering)
+    high = after(shown, *[Action("lift", 1)] * (LIFTED + 3)).of(Layering)
+    slid = after(shown, Action("slide", LIFTED)).of(Layering)
     assert high == slid
     assert high is not None
     assert high.lifted == LIFTED
@@ -143,9 +145,9 @@ def test_layers_are_lifted_step_by_step_from_flat_to_all_the_room(shown: State) 
 
 def test_another_scene_has_its_layers_asked_for_and_stays_lifted(shown: State) -> None:
     state = after(shown, Action("slide", 7), Action("mechanism", 1), "direction")
-    assert state.layers is not None
-    assert (state.layers.parts, state.layers.lifted) == (None, 7)
-    assert state.layers.scene is state.scene
+    assert state.of(Layering)
+    assert (the(state, Layering).parts, the(state, Layering).lifted) == (None, 7)
+    assert the(state, Layering).scene is state.scene
 
 
 def test_another_scene_is_not_shown_in_the_parts_of_the_one_before(shown: State) -> None:
@@ -161,20 +163,20 @@ def test_another_scene_is_not_shown_in_the_parts_of_the_one_before(shown: State)
 
 @pytest.mark.parametrize("name", ["edit", "pencil", "build"])
 def test_what_is_done_with_the_linkage_shows_it_again(shown: State, name: str) -> None:
-    assert after(shown, name).layers is None
+    assert after(shown, name).of(Layering) is None
 
 
 def test_esc_goes_back_to_the_linkage(shown: State) -> None:
     state = after(shown, "back")
-    assert (state.layers, state.scene) == (None, shown.scene)
+    assert (state.of(Layering), state.scene) == (None, shown.scene)
 
 
 def test_a_linkage_on_a_sheet_is_kept_for_its_layers() -> None:
     state = after(begin(load("crank-rocker")), "build_on", "layers")
     assert state.sheet is not None
     assert not state.sheet.open
-    assert state.layers is not None
-    assert state.layers.scene is state.scene
+    assert state.of(Layering)
+    assert the(state, Layering).scene is state.scene
 
 
 def test_a_draft_that_cannot_move_cannot_be_made() -> None:
@@ -188,9 +190,9 @@ def test_a_tape_that_begins_amid_layers_has_them(shown: State) -> None:
     state = after(shown, Action("slide", 5))
     taping = Taping(state, (640, 360))
     begun = taping.tape(state.frame).begun
-    assert begun.layers is not None
-    assert begun.layers.parts is not None
-    assert begun.layers.lifted == 5
+    assert begun.of(Layering)
+    assert the(begun, Layering).parts is not None
+    assert the(begun, Layering).lifted == 5
 
 
 @pytest.mark.parametrize("mode", ["play", "paused", "pencil", "build", "layers"])
@@ -200,9 +202,10 @@ def test_the_list_of_commands_makes_the_parts_in_every_mode(mode: str) -> None:
 
 @pytest.mark.parametrize("apart", [0.0, 0.3, 1.0])
 def test_all_that_moves_stays_in_its_room_at_every_lift(shown: State, apart: float) -> None:
-    assert shown.layers
-    assert shown.layers.parts
-    parts, room = shown.layers.parts, Rect(20, 30, 500, 300)
+    assert shown.of(Layering)
+    assert the(shown, Layering).parts
+    parts, room = the(shown, Layering).parts, Rect(20, 30, 500, 300)
+    assert parts
     view = LayerView.fitting(parts.reach, parts.layers, apart, room)
     for phase in np.linspace(0, 2 * np.pi, 24):
         pose = parts.scene.pose(float(phase), 0)
@@ -248,8 +251,8 @@ def test_the_keys_show_the_layers_and_write_the_parts(player: Player) -> None:
     before = player.pixels
     player.press(pygame.K_F6)
     player.tick()
-    assert player.state.layers
-    assert player.state.layers.parts
+    assert player.state.of(Layering)
+    assert the(player.state, Layering).parts
     assert player.pixels != before
     player.press(pygame.K_RETURN)
     player.press(pygame.K_F6, SHIFT)
@@ -265,10 +268,10 @@ def test_the_slider_is_dragged(player: Player) -> None:
     rect = slider_rect(player.window.screen._framing.last.layout)
     row = rect.middle.imag
     player.drag((rect.x + 15, row), (rect.right + 40, row))
-    assert player.state.layers is not None
-    assert player.state.layers.lifted == LIFTED
+    assert player.state.of(Layering)
+    assert the(player.state, Layering).lifted == LIFTED
     player.drag((rect.right - 15, row), (rect.x, row + 80))
-    assert player.state.layers.lifted == 0
+    assert the(player.state, Layering).lifted == 0
     assert player.state.look == replace(player.state.look, pan=(0.0, 0.0))
 
 
