@@ -479,6 +479,7 @@ _ACCELERATION = _value(
     'the input\'s acceleration, such as "2 rad/s^2" (default: 0)',
     0.0,
 )
+_STATIC = _flag("--static", "forces as at rest: masses have weight, but no inertia")
 _ALT = _value(
     "--alt OUT.txt", Path, "write what it shows in a paragraph, for the alternative text of a page or a slide"
 )
@@ -582,6 +583,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--sweep A:B:STEP", sweep, "a row for each angle from A to B, in degrees"),
         _SPEED,
         _ACCELERATION,
+        _STATIC,
         _either(
             _flag("--json", "print one object, or a list of them for a sweep"),
             _value("--csv OUT", str, "write the sweep to the file OUT (- for stdout)"),
@@ -607,6 +609,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "lay a table over the first curve; its columns are what --over says, and the value",
         ),
         _value("--label TEXT", str, "the name of that table in the legend (default: its file's name)"),
+        _STATIC,
         _SIZE,
         _look("chart"),
     ),

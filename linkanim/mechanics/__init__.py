@@ -11,10 +11,10 @@ From the ground up; a module imports from those before it only:
     solver      closing it; no other room imports this one
     measures    what follows from solved quantities
     centres     instant centres, and Kennedy's theorem
-    motion      a linkage made ready; its motion and its poses
-    nearest     the phase at which a point is nearest to a place
     forces      what the input has to deliver
     reactions   what joints, guides and the ground carry
+    motion      a linkage made ready; its motion and its poses
+    nearest     the phase at which a point is nearest to a place
     quantities  the register of all that is known of a linkage
     polygons    velocity and acceleration polygons
     analysis    class, names, transmission angles, solving steps

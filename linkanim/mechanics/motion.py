@@ -41,6 +41,7 @@ from linkanim.mechanics.measures import (
     unbounded,
 )
 from linkanim.mechanics.program import Array, Batch, batch, scalar
+from linkanim.mechanics.reactions import Reactions, reactions
 from linkanim.mechanics.search import around
 from linkanim.mechanics.solver import limits
 from linkanim.mechanics.solver.assembly import assemble, starts
@@ -350,6 +351,25 @@ class Derived(ABC, Generic[Vector, Number]):
     def damper(self) -> Mapping[str, Strut]:
         """Each damper's length, rate and force."""
         return self._struts(self.mechanism.linkage.dampers)
+
+    @cached_property
+    def reactions(self) -> Reactions:
+        """All forces in joints, guides and gears and on the ground, of a scene that states any."""
+        return reactions(self)
+
+    @cached_property
+    def reaction(self) -> Mapping[str, Mapping[str, Any]]:
+        """The force of each joint (N) on each body that meets there, by joint and body; empty without forces.
+
+        Vectors as positions are: arrays (..., 2), or pairs of a pose.
+        """
+        if not self.mechanism.linkage.forceful:
+            return NOTHING
+        whole = isinstance(self.phase, float)
+        return {
+            joint: {body: force if whole else np.stack(force, axis=-1) for body, force in bodies.items()}
+            for joint, bodies in self.reactions.joints.items()
+        }
 
     def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
         by_name = {item.name: item for item in items}

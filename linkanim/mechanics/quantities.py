@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.centres import pole
 from linkanim.mechanics.forces import effort_token, input_effort
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Pin, Spring, holding
@@ -46,6 +46,7 @@ from linkanim.mechanics.measures import (
 )
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.reactions import GROUND, guided, meeting, meshing
 from linkanim.mechanics.search import sign_changes
 from linkanim.units import shown
 
@@ -212,18 +213,21 @@ def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[s
 
     Tokens go by the bodies' own names; words by what `names` has for them. Lengths are read from the motion.
     """
-    return _registered(linkage.unsized, tuple(names.items()))
+    return _registered(linkage.unsized, tuple(names.items()), _carriers(linkage))
 
 
 @lru_cache(maxsize=16)
-def _registered(linkage: Linkage, names: tuple[tuple[str, str], ...]) -> Mapping[str, Quantity]:
-    found = _quantities(linkage, dict(names), still=False)
+def _registered(
+    linkage: Linkage, names: tuple[tuple[str, str], ...], carriers: _Carriers
+) -> Mapping[str, Quantity]:
+    found = _quantities(linkage, dict(names), carriers, still=False)
     return MappingProxyType({quantity.token: quantity for quantity in found})
 
 
 def recorded(linkage: Linkage) -> Iterator[Quantity]:
     """Yield the quantities of JSON and CSV, with those of fixed pins and with forces that are not known."""
-    return (quantity for quantity in _quantities(linkage, NO_NAMES, still=True) if quantity.path)
+    found = _quantities(linkage, NO_NAMES, _carriers(linkage), still=True)
+    return (quantity for quantity in found if quantity.path)
 
 
 def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
@@ -256,7 +260,9 @@ def _nearest(known: Iterable[str], token: str) -> list[str]:
     return sorted(known, key=likeness, reverse=True)[:_NEAREST]
 
 
-def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> Iterator[Quantity]:
+def _quantities(
+    linkage: Linkage, names: Mapping[str, str], carriers: _Carriers, *, still: bool
+) -> Iterator[Quantity]:
     """Yield all quantities, those of fixed pins and unknown forces where `still`."""
     labels = link_labels(linkage)
     for body in linkage.bodies:
@@ -278,6 +284,7 @@ def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> I
             called_ = body.name, f"P1{labels[body.name]}", called(body, names)
             yield from _vector(_POLE, called_, ("bodies", body.name))
     yield from _of_whole(linkage)
+    yield from _of_forces(linkage, names, carriers)
 
 
 def _pole(motion: Any, name: str) -> Any:
@@ -310,6 +317,105 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
         yield replace(whole, divisor=partial(rate_of, body=output))
 
 
+# What joints, guides and gears carry, of a linkage with forces.
+
+
+class _Carriers(NamedTuple):
+    """What carries forces: the bodies that meet in each joint, what slides, geared cranks and if by teeth."""
+
+    joints: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    guides: tuple[str, ...] = ()
+    gears: tuple[tuple[str, bool], ...] = ()
+
+
+def _carriers(linkage: Linkage) -> _Carriers:
+    """Return what carries forces, nothing of a linkage without any."""
+    if not linkage.forceful:
+        return _Carriers()
+    return _Carriers(tuple(meeting(linkage).items()), guided(linkage), tuple(meshing(linkage).items()))
+
+
+def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) -> Iterator[Quantity]:
+    """Yield the force of each joint on each body, those of guides and gears, and that on the ground."""
+    if not linkage.forceful:
+        return
+    order = _force_order(linkage)
+    labels = {GROUND: "1", **link_labels(linkage)}
+    words = {body.name: called(body, names) for body in linkage.bodies} | {GROUND: "Ground"}
+
+    def whose(body: str) -> str:
+        usual = f"Bar {body}" if "–" in body else body[:1].upper() + body[1:]
+        return words.get(body, usual)
+
+    for joint, bodies in carriers.joints:
+        for body in bodies:
+            index, read = f"{joint},{labels.get(body, body)}", partial(_in_joint, joint=joint, body=body)
+            told = f"{whose(body)}: ", f"force in {joint}"
+            yield from _pull(f"{body}.{joint}.force", index, told, order, ("reactions", joint, body), read)
+    for name in carriers.guides:
+        for kind, symbol, unit in (("force", "N", "N"), ("moment", "M", "N m")):
+            guide = (
+                f"{name}.guide_{kind}",
+                indexed(symbol, labels.get(name, name)),
+                f"{whose(name)}: {kind} of its guide",
+            )
+            read = partial(_in_guide, name=name, kind=kind)
+            yield Quantity(*guide, unit, order, read, path=("guides", name, kind))
+    for name, toothed in carriers.gears:
+        for kind in ("tangential", "radial") if toothed else ():
+            teeth = f"{name}.{kind}_force", f"F_{{g{name}{kind[0]}}}", f"{name}: {kind} force of its teeth"
+            read = partial(_in_gear, name=name, kind=kind)
+            yield Quantity(*teeth, "N", order, read, path=("gears", name, kind))
+        turning = f"{name}.gear_moment", f"M_{{g{name}}}", f"{name}: moment of its gear"
+        read = partial(_in_gear, name=name, kind="moment")
+        yield Quantity(*turning, "N m", order, read, path=("gears", name, "moment"))
+    shaking = "Ground: ", "shaking force"
+    yield from _pull("ground.force", "s", shaking, order, ("ground", "force"), _on_ground)
+    moment = "ground.moment", "M_{s}", "Ground: shaking moment", "N m", order, _moment_on_ground
+    yield Quantity(*moment, path=("ground", "moment"))
+
+
+def _force_order(linkage: Linkage) -> int:
+    """Return which derivative forces depend on: 2 with inertia, 1 with damping."""
+    if any(body.forceful for body in linkage.bodies) and not linkage.static:
+        return 2
+    return int(
+        any(damper.forceful for damper in linkage.dampers)
+        or any(load.against or load.way for load in linkage.loads)
+    )
+
+
+def _pull(
+    token: str, index: str, words: tuple[str, str], order: int, path: Path, read: Callable[[Any], Any]
+) -> Iterator[Quantity]:
+    """Yield a force, its size and its two components."""
+    whose, what = words
+    yield Quantity(token, f"F_{{{index}}}", f"{whose}{what}", "N", order, lambda motion: size(read(motion)))
+    for n, axis in enumerate("xy"):
+        told = f"{token}.{axis}", f"F_{{{index}{axis}}}", f"{whose}{axis} of the {what}", "N", order
+        yield Quantity(*told, _component(read, n), path=(*path, n))
+
+
+def _in_joint(motion: Any, joint: str, body: str) -> Any:
+    return motion.reactions.joints[joint][body]
+
+
+def _on_ground(motion: Any) -> Any:
+    return motion.reactions.ground
+
+
+def _moment_on_ground(motion: Any) -> Any:
+    return motion.reactions.moment
+
+
+def _in_guide(motion: Any, name: str, kind: str) -> Any:
+    return getattr(motion.reactions.guides[name], kind)
+
+
+def _in_gear(motion: Any, name: str, kind: str) -> Any:
+    return getattr(motion.reactions.gears[name], kind)
+
+
 def _of_input(linkage: Linkage) -> Iterator[Quantity]:
     """Yield the input's velocity, its cylinder's length, and the torque or force that it delivers."""
     coordinate, actuator = linkage.drive.coordinate, linkage.drive.actuator
@@ -322,8 +428,7 @@ def _of_input(linkage: Linkage) -> Iterator[Quantity]:
 
         yield _whole("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
     if linkage.forceful:
-        damped = any(damper.forceful for damper in linkage.dampers)
-        order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
+        order = _force_order(linkage)
         name, unit = actuator.effort
         symbol = f"{name[0].upper()}_{{in}}"
         yield _whole(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)

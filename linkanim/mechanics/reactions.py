@@ -106,7 +106,7 @@ class Reactions(NamedTuple):
 
     `joints` has for each joint in which several bodies meet the force on each of them (x, y); `guides` by
     sliding body; `gears` by crank. `ground` is the sum of all that acts on the ground, the shaking force, and
-    `moment` its moment about the input's pivot. `effort` is the input's, as it follows from its joints
+    `moment` its moment about the origin. `effort` is the input's, as it follows from its joints
     (`forces.input_effort` has it from the balance of power, which keeps its digits at change points, too).
     Infinite where it is unbounded, NaN where there is no value.
     """
@@ -163,6 +163,38 @@ def named_at(linkage: Linkage, member: Member, joint: str) -> str:
     return found.name if found and member else members(linkage).names[member]
 
 
+def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
+    """Return the names of the bodies in each joint in which several meet, and in a cylinder's ends."""
+    found = {
+        name: [n for n, frame in enumerate(linkage.rigid_bodies) if name in frame] for name in linkage.by_name
+    }
+    several: dict[str, list[Member]] = {name: [*numbers] for name, numbers in found.items()}
+    for joint in linkage.joints:
+        if joint.travels:
+            several[joint.name].append(joint.name)
+        if isinstance(joint, RPR):
+            several[joint.through] += members(linkage).of[joint.name]
+        if isinstance(joint, RPP):
+            several[joint.pin].append(joint.name)
+    ends = linkage.drive.actuator.along or ()
+    return {
+        name: tuple(named_at(linkage, member, name) for member in several[name])
+        for name in linkage.by_name
+        if len(several[name]) > 1 or name in ends
+    }
+
+
+def guided(linkage: Linkage) -> tuple[str, ...]:
+    """Return the names of what slides along a line, in the order of the joints."""
+    return tuple(members(linkage).names[joint.name] for joint in linkage.joints if joint.travels)
+
+
+def meshing(linkage: Linkage) -> Mapping[str, bool]:
+    """Return the geared cranks, and whether teeth turn them, not a belt."""
+    geared = (crank for crank in linkage.cranks if crank.gear is not None)
+    return {crank.name: _contact(linkage, crank)[0] is not None for crank in geared}
+
+
 # The forces, joint by joint from the last to the first.
 #
 # Lengths are in the scene's unit, and moments in newtons times that, until they are told.
@@ -201,7 +233,7 @@ class _Balance:
         self.gears: dict[str, tuple[Any, Any, Any]] = {}
         self.effort: Any = 0.0
         self.shaking: tuple[Any, Any, Any] = (0.0, 0.0, 0.0)
-        """The force on the ground, and its moment about the input's pivot."""
+        """The force on the ground, and its moment about the origin."""
         self.noise: Any = 0.0
         """How large the rounding errors of forces may be (N)."""
         self.idle: Any = False
@@ -244,13 +276,11 @@ class _Balance:
 
     def shake(self) -> None:
         """Note what all weights, loads and inertia do to the ground, which they reach without loss."""
-        joint = self.linkage.driven.joint
-        pivot = self.place(joint.line.through if isinstance(joint, DrivenSlider) else joint.pivot)
-        known = list(self.forces)
+        known, (x, y) = list(self.forces), self.linkage.origin
         force: Vector = (0.0, 0.0)
         for member in known:
             force = _sum(force, self.total(member))
-        self.shaking = *force, sum((self.moment(one, pivot) for one in {*known, *self.couples}), 0.0)
+        self.shaking = *force, sum((self.moment(one, (-x, -y)) for one in {*known, *self.couples}), 0.0)
 
     def along(self, line: Line) -> tuple[Vector, Member]:
         """Return the direction of a line of travel, of length 1, and the body that carries it."""
@@ -430,8 +460,9 @@ def _balanced(motion: Any) -> _Balance:
     for joint in reversed(balance.linkage.joints):
         if not joint.fixed:
             _KINDS[type(joint)](joint, balance)
-    for pin in balance.linkage.pins:
-        balance.meet(pin.name, 0, balance.pins[pin.name])
+    for joint in balance.linkage.joints:
+        if joint.fixed:
+            balance.meet(joint.name, 0, balance.pins[joint.name])
     return balance
 
 
@@ -493,7 +524,6 @@ def _press(load: Load, balance: _Balance) -> None:
 # What is told of them.
 
 
-@lru_cache(maxsize=2)
 def reactions(motion: Any) -> Reactions:
     """Return all reactions of a motion, or of a pose; with masses its second derivatives are needed.
 
@@ -526,6 +556,11 @@ def _listed(balance: _Balance) -> list[Array]:
     told += [*balance.shaking, balance.effort]
     shape = np.shape(balance.motion.phase)
     return [np.array(np.broadcast_to(part, shape)) for part in told]
+
+
+def _reach(linkage: Linkage) -> float:
+    """Return how far from the origin forces may act on the ground."""
+    return linkage.longest + max((math.hypot(*pin.position) for pin in linkage.pins), default=0.0)
 
 
 def _told(balance: _Balance, found: list[Array]) -> Reactions:
@@ -569,6 +604,6 @@ def _told(balance: _Balance, found: list[Array]) -> Reactions:
         {balance.members.names[name]: guide for name, guide in guides.items()},
         gears,
         (force(own), force(own)),
-        moment(own),
+        told(next(numbers) * metre, own * (_reach(linkage) * metre)),
         moment() if linkage.drive.actuator.effort[0] == "torque" else force(),
     )

@@ -6,7 +6,7 @@ which a report on a mechanism goes.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from itertools import chain
 from math import degrees, isinf, isnan, nan, pi, remainder, tau
@@ -20,6 +20,7 @@ from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, output_body, output_slider
 from linkanim.mechanics.quantities import Quantity, bodies_in_chain, called, input_symbol, phrase
+from linkanim.mechanics.reactions import GROUND
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded
@@ -149,8 +150,8 @@ def charted(values: Values) -> Iterator[str]:
     """Yield the token of each quantity that has a chart: of those that change over the motion.
 
     They are those of bodies, springs and dampers, centres of mass, traced joints and the whole mechanism; the
-    other joints are in the tables. A vector is charted by its components, and a velocity and an acceleration
-    by its size, too.
+    other joints are in the tables, and so are forces, of which those on the ground are charted by their size.
+    A vector is charted by its components, and a velocity and an acceleration by its size, too.
     """
     scene = values.scene
     joints = {joint.name for joint in scene.linkage.joints} - set(scene.trace)
@@ -158,6 +159,7 @@ def charted(values: Values) -> Iterator[str]:
     for token, quantity in scene.quantities.items():
         owner, _, rest = token.partition(".")
         in_tables = owner in joints - bodies or rest.startswith("pole")
+        in_tables |= ".force" in rest and (owner != GROUND or rest.endswith((".x", ".y")))
         if not in_tables and rest not in ("position", "com_position") and values.changes(quantity):
             yield token
 
@@ -193,12 +195,16 @@ _MOST_JOINTS = 10
 
 _POINT = {"position.x": "x", "position.y": "y", "velocity": "v", "acceleration": "a"}
 _CENTRE = {f"com_{name}": symbol for name, symbol in _POINT.items()}
+_PULL = {"force.x": "Fx", "force.y": "Fy", "force": "F"}
+_GUIDE = {"guide_force": "N", "guide_moment": "M"}
 _STRUT = {"length": "L", "direction": "θ", "rate": "v", "force": "F"}
 
 
 _LINKS = "angle θ, kinematic coefficients h and h′, angular velocity ω and acceleration α"
 _SLIDERS = "travel s, kinematic coefficients f and f′, velocity v and acceleration a"
 _POINTS = "place x, y, sizes of velocity v and acceleration a"
+_PULLS = "the force on each body: components Fx and Fy, size F"
+_GUIDES = "the force N to the left of the guide's line, the moment M about the joint"
 _STRUTS = "length L, direction θ, rate of length v and force F"
 
 
@@ -261,6 +267,7 @@ def _families(values: Values) -> Iterator[Family]:
     yield Family("Joints", _POINTS, "joint", in_order, _POINT)
     yield Family("Centres of mass", _POINTS, "link", massive, _CENTRE)
     yield Family("Springs and dampers", _STRUTS, "element", struts, _STRUT)
+    yield from _forces(scene, names)
     whole = {"transmission_angle": "μ", "mechanical_advantage": "MA", effort_token(linkage): "T"}
     symbols = {token: scene.quantities[token].symbol for token in whole if token in scene.quantities}
     about = ", ".join(
@@ -268,6 +275,21 @@ def _families(values: Values) -> Iterator[Family]:
         for token in symbols
     )
     yield Family("The whole mechanism", about, "", (("", ""),) if symbols else (), symbols)
+
+
+def _forces(scene: Scene, names: Mapping[str, str]) -> Iterator[Family]:
+    """Yield the tables of the forces in joints, and of those of guides."""
+    words = {body.name: called(body, names) for body in scene.linkage.bodies}
+    pulls, guides = [], []
+    for token in scene.quantities:
+        body, _, rest = token.partition(".")
+        joint, _, kind = rest.partition(".")
+        if kind == "force":
+            pulls.append((f"{joint} on {words.get(body, body)}", f"{body}.{joint}"))
+        elif rest == "guide_force":
+            guides.append((f"Guide on {words.get(body, body)}", body))
+    yield Family("Forces in joints", _PULLS, "joint", tuple(pulls), _PULL)
+    yield Family("Forces of guides", _GUIDES, "slider", tuple(guides), _GUIDE)
 
 
 def _symbols(linkage: Linkage, *, turning: bool) -> dict[str, str]:

@@ -93,6 +93,8 @@ from linkanim.units import shown
 
 # How joints are written: the fields of each kind, and of fixed pins. A kind of joint is one entry here.
 
+_STEEPEST = math.radians(45)
+"""The greatest angle at which teeth of wheels press."""
 _LEAST_SLOT = 1e-6
 """Sine of the least angle between a slot and its line of travel."""
 
@@ -117,6 +119,11 @@ def _line(through: str | None = None, on: tuple[str, str] | None = None, **rest:
 def _refuse_parallel(slide: Table, values: Mapping[str, Any]) -> None:
     if abs(math.sin(values["slot"])) < _LEAST_SLOT:
         raise slide.error("slot", 'lies along the line of travel, so it never crosses it; write "90 deg"')
+
+
+def _refuse_pressure(gear: Table, values: Mapping[str, Any]) -> None:
+    if not 0.0 <= values.get("pressure_angle", 0.0) <= _STEEPEST:
+        raise gear.error("pressure_angle", 'is none of teeth; give one from 0 to 45 deg, such as "20 deg"')
 
 
 def _refuse_own(table: Table, values: Mapping[str, Any]) -> None:
@@ -149,6 +156,8 @@ GEAR = form(
     Field("with", JOINT, "the crank that it is geared to", into="mate", must="crank"),
     Field("ratio", RATIO, "its angle to that crank's", label="gear ratio"),
     Field("offset", ANGLE, "its angle where that crank's is 0", "0 deg", label="gear offset"),
+    Field("pressure_angle", ANGLE, "at which teeth press: 20 deg", None, label="pressure angle"),
+    refuse=_refuse_pressure,
     make=Gear,
 )
 SLOT = form(

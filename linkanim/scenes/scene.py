@@ -130,6 +130,14 @@ class Scene:
         free = self.towards is not None and not self.towards.mechanism.hindered
         return passing(self.linkage) if free else mechanism(self.linkage)
 
+    @property
+    def without_inertia(self) -> Scene:
+        """The scene with its forces as at rest; BadInput where it states nothing that has a force."""
+        if not self.linkage.forceful:
+            reason = "states no mass, spring, damper or load, so it has no forces"
+            raise BadInput(f"{self.name}: {reason}; give a body a mass, or add [loads]")
+        return replace(self, linkage=replace(self.linkage, static=True))
+
     def style(self, body: str) -> BodyStyle:
         """Return how the scene has a body drawn."""
         return dict(self.styles).get(body, FREE_STYLE)

@@ -68,7 +68,8 @@ def test_one_pose_is_one_object_of_the_agreed_form(solved: Callable[..., Any]) -
     pose = solved("press", "--angle", "87 deg", "--speed", "10 rad/s")
     head = ["scene", "angle", "phase", "speed", "acceleration", "length_unit"]
     whole = ["input", "transmission_angle", "mechanical_advantage"]
-    assert list(pose) == [*head, "joints", "bodies", "springs", "dampers", *whole]
+    forces = ["reactions", "guides", "gears", "ground"]
+    assert list(pose) == [*head, "joints", "bodies", "springs", "dampers", *whole, *forces]
     assert {key: pose[key] for key in head} == {
         "scene": "press",
         "angle": math.radians(87),

@@ -158,12 +158,7 @@ class NewtonEuler:
         self._inertia(system)
         for axis in ("x", "y", "moment"):
             system.add(("ground", axis), ("ground", axis), mpf(-1))
-        found = system.solved()
-        pivot = self.linkage.driven.pivot or self.linkage.drive.joint
-        reference = self.at[pivot if self.linkage.driven.pivot else self.linkage.slides[pivot].line.through]
-        ground = mp.mpc(found["ground", "x"], found["ground", "y"])
-        found["ground", "moment"] -= mp.im(mp.conj(reference) * ground)
-        return found
+        return system.solved()
 
     def _force(self, system: _System, body: str, place: Any, unknown: tuple[str, ...], along: Any) -> None:
         """Let an unknown force act on a body along a direction."""

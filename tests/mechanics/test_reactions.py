@@ -33,7 +33,7 @@ from linkanim.mechanics.linkage import (
     Travel,
 )
 from linkanim.mechanics.motion import mechanism
-from linkanim.mechanics.reactions import Reactions, reactions
+from linkanim.mechanics.reactions import Reactions, guided, meeting, meshing, reactions
 
 PUBLISHED = json.loads((Path(__file__).parent / "forces.json").read_text(encoding="utf-8"))
 
@@ -334,6 +334,23 @@ def test_all_that_acts_on_a_body_is_its_inertia() -> None:
         effort = found.effort if body == "b1" else 0.0
         assert np.abs(force).max() < 1e-12 * largest, body
         assert np.abs(moment + effort).max() < 1e-13 * largest, body
+
+
+@pytest.mark.parametrize("make", EVERY)
+def test_what_meets_is_known_without_a_pose(make: Make) -> None:
+    for seed, linkage in enumerate(linkages(make, 8, seed=11)):
+        ends = list(linkage.by_name)
+        unnamed = replace(linkage, springs=(Spring("s", (ends[0], ends[-1]), 9.0, 1.0),), metre=1e-3)
+        scene = laden(linkage, seed) if seed % 2 else unnamed
+        found = reactions(mechanism(scene).solve(phase=1.0, speed=1.0))
+        known = meeting(scene)
+        assert list(known) == list(found.joints)
+        for joint, bodies in found.joints.items():
+            assert sorted(known[joint]) == sorted(bodies)
+        assert guided(scene) == tuple(found.guides) or set(guided(scene)) == set(found.guides)
+        toothed = {name for name, teeth in meshing(scene).items() if teeth}
+        assert toothed == {name for name, gear in found.gears.items() if gear.tangential is not None}
+        assert meshing(scene).keys() == found.gears.keys()
 
 
 SCENES: dict[str, Linkage] = {

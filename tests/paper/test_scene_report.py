@@ -315,7 +315,8 @@ def test_the_tables_of_the_press_say_what_the_printed_report_does() -> None:
         one.title: one for one in value_tables(values, instants_at(load("press"), (low, high)), PACES, 4)
     }
     assert list(found) == [
-        "Links", "Slider C", "Joints", "Centres of mass", "Springs and dampers", "The whole mechanism",
+        "Links", "Slider C", "Joints", "Centres of mass", "Springs and dampers",
+        "Forces in joints", "Guide on Slider C", "The whole mechanism",
     ]  # fmt: skip
     links = found["Links"]
     assert [title for title, _ in links.groups] == ["θ₂ = 87.00°", "θ₂ = 306.00°"]

@@ -32,6 +32,8 @@ def run(options: Namespace) -> None:
         print(_listed(in_unit(load(options.scene), options.unit)))
         return
     scene, canvas, target = scene_canvas_target(options, OF_A_CHART, ".png")
+    if options.static:
+        scene = scene.without_inertia
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)

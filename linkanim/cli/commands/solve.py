@@ -231,13 +231,46 @@ def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
         for item in items
     ]
     yield [["element", *_titles(SPRING[force], unit)], *elements]
+    yield from _forces(pose, called) if linkage.forceful else ()
     yield [["whole", "value"], *_whole(linkage, unit, pose)]
+
+
+def _forces(pose: Tree, called: Mapping[str, str]) -> Iterator[list[list[str]]]:
+    """Yield the tables of the forces in joints, of guides and gears, and on the ground."""
+    pulls = [
+        [f"{joint} on {called.get(body, body)}", *map(_number, force)]
+        for joint, bodies in pose["reactions"].items()
+        for body, force in bodies.items()
+    ]
+    yield [["force", "Fx N", "Fy N"], *pulls]
+    guides = [
+        [f"guide on {called.get(name, name)}", _number(one["force"]), _number(one["moment"])]
+        for name, one in pose.get("guides", {}).items()
+    ]
+    yield [["guide", "force N", "moment N m"], *guides]
+    gears = [
+        [
+            f"teeth on {name}",
+            *(_number(one[key]) if key in one else "-" for key in ("tangential", "radial", "moment")),
+        ]
+        for name, one in pose.get("gears", {}).items()
+    ]
+    yield [["gear", "tangential N", "radial N", "moment N m"], *gears]
+    ground = pose["ground"]
+    yield [["on the ground", "value"]] + [
+        [f"{words} {unit}", _number(value)]
+        for words, value, unit in (
+            ("shaking force x", ground["force"][0], "N"),
+            ("shaking force y", ground["force"][1], "N"),
+            ("shaking moment", ground["moment"], "N m"),
+        )
+    ]
 
 
 def _whole(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[str]]:
     """Yield the quantities of the whole linkage: words with the unit, and the value."""
     for quantity in recorded(linkage):
-        if quantity.path == tuple(quantity.token.split(".")):
+        if quantity.path == tuple(quantity.token.split(".")) and quantity.path[0] != "ground":
             value: Any = pose
             for key in quantity.path:
                 value = value[key]
@@ -338,6 +371,8 @@ def run(options: Namespace) -> None:
         from linkanim.scenes.editing import in_unit
 
         scene = in_unit(scene, options.unit)
+    if options.static:
+        scene = scene.without_inertia
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if inputs.steps is not None:
         _refuse_many(scene, inputs.steps.rows, shown=not (options.csv or options.json))
