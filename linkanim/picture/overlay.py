@@ -6,6 +6,7 @@ These are data only; places are in the scene's unit, y up. Modules such as `pane
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -290,8 +291,9 @@ class OwnFile(NamedTuple):
 def sifted(texts: Mapping[Key, tuple[str, ...]], sieve: str) -> tuple[Key, ...]:
     """Return the keys whose texts have all the sieve's words, the best ones first.
 
-    The best is the one whose first text is what was typed; then come those whose first text has all the
-    words, then those whose first two have them, and so on, each in the order of `texts`.
+    The best is the one whose first text is what was typed; then come those with words that begin so. First of
+    either are those whose first text has all the words, then those whose first two have them, and so on, each
+    in the order of `texts`.
     """
     if not (words := sieve.casefold().split()):
         return tuple(texts)
@@ -304,7 +306,14 @@ def sifted(texts: Mapping[Key, tuple[str, ...]], sieve: str) -> tuple[Key, ...]:
             return 0
         return 1 + max(next(n for n, text in enumerate(several) if word in text) for word in words)
 
-    return tuple(key for key, several in sorted(found, key=lambda one: rank(one[1])))
+    def is_within(several: list[str]) -> bool:
+        starts = re.findall(r"\w+", " ".join(several))
+        return not all(any(one.startswith(word) for one in starts) for word in words)
+
+    def order(several: list[str]) -> tuple[bool, bool, int]:
+        return rank(several) > 0, is_within(several), rank(several)
+
+    return tuple(key for key, several in sorted(found, key=lambda one: order(one[1])))
 
 
 def searched(entry: Scene | str) -> tuple[str, str, str]:

@@ -20,6 +20,7 @@ From the ground up; a module imports from those before it only:
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse
     listing    a mode: the list of quantities, or of commands
+    finding    a mode: one field that finds anything
     shelving   a mode: the shelf
     making     the steps of a construction; a mode: layers in which a scene can be made
     naming     a mode: the name of the file to be written

@@ -456,6 +456,7 @@ ACTIONS: Mapping[str, Rule] = {
     "edit": Rule(rules.nothing, edits.edit),
     "numbers": Rule(rules.nothing, building.numbers),
     "edit_at": Rule(rules.text, edits.edit_at),  # a joint
+    "edit_row": Rule(rules.whole, edits.edit_row),  # a row of the list of dimensions
     "trace_joint": Rule(rules.text, edits.trace_joint),
     "drive_joint": Rule(rules.text, edits.drive_joint),
     "choose": Rule(rules.whole, edits.choose),
@@ -585,7 +586,7 @@ def is_taped(action: Action) -> bool:
 
 _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 """Actions that are refused while a path is drawn: its points keep their unit, and edits are the scene's."""
-_KEEPS = frozenset({"edit", "edit_at", "trace_joint", "drive_joint", "layers"})
+_KEEPS = frozenset({"edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers"})
 _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
 """Actions that keep the pencil's answer first, and those that first go back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace", "poses"}

@@ -200,11 +200,15 @@ def lack(state: State, action: Action) -> str:
 
 
 class ListRow(NamedTuple):
-    """A row of a list: its words, the key that does the same, and its action."""
+    """A row of a list: its words, the key that does the same, its action; texts by which it is found.
+
+    Without these it is found by its words and its key.
+    """
 
     words: str
     key: str
     action: Action
+    texts: tuple[str, ...] = ()
 
 
 @frozen
@@ -218,7 +222,7 @@ class Entries:
     @cached_property
     def found(self) -> tuple[ListRow, ...]:
         """The rows that have all the sieve's words."""
-        return sifted({one: (one.words, one.key) for one in self.entries}, self.sieve)
+        return sifted({one: one.texts or (one.words, one.key) for one in self.entries}, self.sieve)
 
     @cached_property
     def rows(self) -> tuple[tuple[str, str], ...]:
@@ -237,7 +241,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     if what is None or what in GROUPS:
         return _of_mode(state, usual, what)
     if what == "things":
-        rows = tuple(ListRow(one, "", Action("menu", one)) for one in _things(state.scene))
+        rows = tuple(ListRow(one, "", Action("menu", one)) for one in things(state.scene))
         return Entries("Joints and links", rows)
     if what.startswith("keys "):
         keys = what.removeprefix("keys ")
@@ -245,7 +249,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     if what in _CHOSEN:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
-    rows = tuple(_of_thing(state, kind, name)) if what in _things(state.scene) else ()
+    rows = tuple(_of_thing(state, kind, name)) if what in things(state.scene) else ()
     return Entries(what[:1].upper() + what[1:], (*rows, usual[Action("names")])) if rows else None
 
 
@@ -315,7 +319,7 @@ _CHOSEN: Mapping[str, tuple[Action, ...]] = {
 """The commands of the thing under the hand that stand in the table."""
 
 
-def _things(scene: Scene) -> tuple[str, ...]:
+def things(scene: Scene) -> tuple[str, ...]:
     """Return the things that have commands of their own: joints, links and struts, by kind and name."""
     linkage = scene.linkage
     joints = (f"joint {joint.name}" for joint in linkage.joints)

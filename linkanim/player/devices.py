@@ -247,7 +247,7 @@ class Pads:
         """Return the action that turns the crank as the stick has moved, from both its axes."""
         moved, self._moved = self._moved, False
         stick = complex(self._stick[0], -self._stick[1])
-        if not moved or abs(stick) <= _DEAD_ZONE or state.mode in ("list", "shelf"):
+        if not moved or abs(stick) <= _DEAD_ZONE or state.mode in ("list", "find", "shelf"):
             return ()
         return (Action("scrub", phase_along(state.displayed, state.phase, stick / max(abs(stick), 1.0))),)
 
@@ -418,7 +418,7 @@ class Mouse:
         """Return the action that opens the list for what is under the mouse, or for all, or closes it."""
         if screen.state.keys.alone:
             return ()
-        if screen.state.mode == "list":
+        if screen.state.mode in ("list", "find"):
             return (Action("back"),)
         if screen.button_at(*self.at) is not None:
             return (Action("menu"),)

@@ -283,6 +283,12 @@ def edit_at(state: State, joint: str) -> State:
     return choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
 
 
+def edit_row(state: State, row: int) -> State:
+    """Open the list of dimensions at a row."""
+    state = state if state.editing.open else edit(state, None)
+    return choose(state, row - state.editing.chosen)
+
+
 def trace_joint(state: State, joint: str) -> State:
     """Draw a joint's curve, or stop drawing it; undo goes back."""
     if joint not in state.scene.linkage.by_name:

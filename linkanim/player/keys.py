@@ -201,7 +201,11 @@ KEYS: Table = {
             "all commands (Shift: a joint's)",
             on("f10", "menu") + on("shift+f10", "menu", "things"),
         ),
-        KeyRow("H, F1, ?", "help", on("h f1 ? shift+/", "help")),
+        KeyRow(
+            "H, F1, ?; Ctrl+K, /",
+            "help; find anything, and do it",
+            on("h f1 ? shift+/", "help") + on("ctrl+k /", "find"),
+        ),
         KeyRow(
             "Esc, Q",
             "close, leave full screen, stop recording (Esc); quit",
@@ -505,7 +509,7 @@ def _names(press: Press) -> tuple[str, ...]:
 
 BESIDE_GAMES = frozenset(
     {
-        *("play", "help", "theme", "material", "zoom", "fit", "fullscreen", "sounds"),
+        *("play", "help", "find", "theme", "material", "zoom", "fit", "fullscreen", "sounds"),
         *("pan", "record", "taking", "screenshot", "svg", "quit"),
     }
 )
@@ -545,6 +549,7 @@ _APART: Mapping[Action, str] = {
     Action("shelf"): "the shelf",
     Action("help"): "help",
     Action("menu"): "all commands",
+    Action("find"): "find",
     Action("menu", "things"): "commands of a joint or link",
     Action("play", "title door=play"): "the title",
     Action("back"): "close what is open, leave full screen",

@@ -51,6 +51,7 @@ ENTERED: dict[str, tuple[Action | str, ...]] = {
     "paused": ("pause",),
     "edit": ("edit",),
     "list": ("list",),
+    "find": ("find",),
     "shelf": ("shelf",),
     "pencil": ("pencil",),
     "poses": ("poses",),
