@@ -3,8 +3,9 @@
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
 or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` poses into linkages whose
 coupler passes them, `function` a function into linkages that generate it, `quick_return` a time ratio
-into linkages that have it, `make` a scene into parts to cut and pin together. Everything is imported when
-first asked for: `import linkanim` alone brings in neither a window nor an encoder.
+into linkages that have it, `make` a scene into parts to cut and pin together; `solve_many` solves a
+scene with many lengths in one call. Everything is imported when first asked for: `import linkanim` alone
+brings in neither a window nor an encoder.
 
 The rooms, from the ground up. Each imports only from those before it; its docstring lists its modules in
 the order in which they are read:
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     from linkanim.picture.look import Look
     from linkanim.recorder.recording import record
     from linkanim.scenes import load, names
+    from linkanim.scenes.many import solve_many
     from linkanim.scenes.scene import Scene
     from linkanim.synthesis.generation import function
     from linkanim.synthesis.guidance import guide
@@ -72,6 +74,7 @@ __all__ = [
     "path",
     "quick_return",
     "record",
+    "solve_many",
 ]
 
 _HOME = {
@@ -86,6 +89,7 @@ _HOME = {
     "path": "linkanim.synthesis.path",
     "quick_return": "linkanim.synthesis.quick_returns",
     "record": "linkanim.recorder.recording",
+    "solve_many": "linkanim.scenes.many",
 }
 
 

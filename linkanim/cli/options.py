@@ -547,9 +547,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
     "record": (
         _scene(", or of a tape"),
-        _output(
-            "write OUT.gif, .mp4, .webm, .webp, .apng, .mov or numbered .png (default: SCENE.gif here)"
-        ),
+        _output("write OUT.gif, .mp4, .webm, .webp, .apng, .mov or numbered .png (default: SCENE.gif here)"),
         _takes(
             "--for", dest="preset", choices=tuple(PRESETS), help="take size, rate and format for a purpose"
         ),

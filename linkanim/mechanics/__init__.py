@@ -14,6 +14,7 @@ From the ground up; a module imports from those before it only:
     forces      what the input has to deliver
     reactions   what joints, guides and the ground carry
     motion      a linkage made ready; its motion and its poses
+    many        linkages of one form, each at its own phase, in one call
     nearest     the phase at which a point is nearest to a place
     quantities  the register of all that is known of a linkage
     polygons    velocity and acceleration polygons

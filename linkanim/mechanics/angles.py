@@ -331,8 +331,8 @@ QUARTER_TURN_LOW = PI_REST / 2
 class Sum:
     """A number held as an unevaluated sum of two floats; the second is below half a last digit."""
 
-    high: float
-    low: float = 0.0
+    high: Any
+    low: Any = 0.0
 
     def __add__(self, other: Sum) -> Sum:
         total, error = two_sum(self.high, other.high)
@@ -355,6 +355,10 @@ class Sum:
         return Fraction(self.high) + Fraction(self.low)
 
     def __mul__(self, ratio: Fraction) -> Sum:
+        if ratio == 1:
+            return self
+        if isinstance(self.high, Expr):
+            return self.times(float(ratio))
         exact = self.fraction * ratio
         high = float(exact)
         return Sum(high, float(exact - Fraction(high)))
@@ -363,8 +367,10 @@ class Sum:
         return float(self.high + self.low)
 
     @property
-    def constant(self) -> Constant:
-        """The number as a constant of the formulas."""
+    def constant(self) -> Any:
+        """The number as a constant of the formulas, or their value where it is made of lengths."""
+        if isinstance(self.high, Expr) or isinstance(self.low, Expr):
+            return self.high + self.low
         return Constant(float(self), lambda: self.fraction)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
@@ -109,8 +109,10 @@ def nearest(number: Fraction) -> Constant:
     return Constant(float(number), number)
 
 
-def root(square: float) -> float:
+def root(square: Value) -> Any:
     """Return the square root of a float; of a constant, that of its number to fifty digits."""
+    if isinstance(square, Expr):
+        return square.graph.node("sqrt", square)
     if not isinstance(square, Constant):
         return math.sqrt(square)
     return Constant(math.sqrt(square), lambda: digits_of(square).sqrt(Context(prec=DIGITS)))
@@ -177,6 +179,42 @@ class Graph:
         self._nodes.clear()
 
 
+class FormGraph(Graph):
+    """A graph some of whose inputs stand for many numbers, of which one, a sample, is known.
+
+    Where formulas branch on such values, the sample decides, and what has to hold for the others to go the
+    same way is kept in `conditions`: values that are not negative then.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._samples: dict[int, float] = {}
+        self.conditions: list[Value] = []
+
+    def sampled(self, name: str, sample: float) -> Expr:
+        """Return the named input, of which one value is known."""
+        found = self.input(name)
+        self._samples[found.index] = sample
+        return found
+
+    def sample(self, value: Value) -> float:
+        """Return what a value is for the sample; TypeError where that is not known."""
+        if not isinstance(value, Expr):
+            return float(value)
+        if value.index not in self._samples:
+            if value.op == "input":
+                raise TypeError(f"{value.args[0]} has no sample")
+            known = [self.sample(arg) for arg in value.args if not isinstance(arg, str)]
+            self._samples[value.index] = SAMPLED[value.op](*known)
+        return self._samples[value.index]
+
+    def less(self, one: Value, other: Value) -> bool:
+        """Tell whether one value is less than another, for the sample and all that are solved as it is."""
+        found = self.sample(one) < self.sample(other)
+        self.conditions.append(other - one if found else one - other)
+        return found
+
+
 class Expr:
     """One recorded operation; its arguments are nodes of the same graph or constants.
 
@@ -239,6 +277,21 @@ class Expr:
     def __rtruediv__(self, other: Value) -> Value:
         return _divide(other, self)
 
+    def __lt__(self, other: Value) -> bool:
+        return _less(self.graph, self, other)
+
+    def __gt__(self, other: Value) -> bool:
+        return _less(self.graph, other, self)
+
+    def __le__(self, other: Value) -> bool:
+        return not _less(self.graph, other, self)
+
+    def __ge__(self, other: Value) -> bool:
+        return not _less(self.graph, self, other)
+
+    def __abs__(self) -> Value:
+        return self.graph.node("maximum", self, -self)
+
     def __neg__(self) -> Value:
         if self.positive is not None:
             return self.positive
@@ -250,6 +303,30 @@ class Expr:
 
 
 Value = Expr | float
+
+
+def _less(graph: Graph, one: Value, other: Value) -> bool:
+    if not isinstance(graph, FormGraph):
+        raise TypeError("formulas do not compare values; use select, minimum or maximum")
+    return graph.less(one, other)
+
+
+def are_inputs(*lengths: Value) -> bool:
+    """Tell whether one of these lengths is an input of the program, or made of such."""
+    return any(isinstance(length, Expr) for length in lengths)
+
+
+def over(value: Any, unit: Any) -> Any:
+    """Return a quotient; by a value, which others are divided by, too, as a product with its inverse."""
+    return value * (1.0 / unit) if isinstance(unit, Expr) else value / unit
+
+
+def known(value: Value) -> float:
+    """Return a number; of a value with a sample that of the sample, where no other need go the same way."""
+    if not isinstance(value, Expr):
+        return float(value)
+    assert isinstance(value.graph, FormGraph)
+    return value.graph.sample(value)
 
 
 def _factored(value: Expr) -> tuple[Value | None, Expr]:
@@ -269,6 +346,8 @@ def _is_uniform(value: Expr | float | str) -> bool:
 def _subtract(a: Value, b: Value) -> Value:
     graph = _graph_of(a, b)
     a, b = _recorded(graph, a), _recorded(graph, b)
+    if a is b:
+        return 0.0
     if not isinstance(b, Expr) and b == 0:
         return a
     if not isinstance(a, Expr) and a == 0:
@@ -313,11 +392,13 @@ def _divide(a: Value, b: Value) -> Value:
         return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else graph.node("div", a, b)
     if not isinstance(a, Expr) and a == 0:
         return 0.0
-    return graph.node("div", a, b)
+    return 1.0 if a is b else graph.node("div", a, b)
 
 
-def beside(number: float, value: Value) -> float:
+def beside(number: Value, value: Value) -> Value:
     """Return a number as the value's graph records it; unchanged where the value is a float."""
+    if isinstance(number, Expr):
+        return number
     return value.graph.constant(number) if isinstance(value, Expr) else float(number)
 
 
@@ -344,6 +425,20 @@ arctan2 = _function("arctan2", math.atan2)
 """The angle of (x, y), from y and x, by the C library: for angles that are shown, not computed with."""
 select = _function("select", lambda a, b, below, otherwise: below if a < b else otherwise)
 """Of a, b, c and d: c where a < b, else d."""
+SAMPLED: Mapping[str, Callable[..., float]] = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": lambda a, b: a / b if b else math.nan,
+    "neg": operator.neg,
+    "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan,
+    "rint": nearest_whole,
+    "arctan2": math.atan2,
+    "minimum": min,
+    "maximum": max,
+    "select": lambda a, b, below, otherwise: below if a < b else otherwise,
+}
+"""What each operation does to a sample."""
 
 
 # Plane vectors and moving quantities made of `Value`s: floats, or symbolic expressions.

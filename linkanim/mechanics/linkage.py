@@ -44,6 +44,15 @@ class Stated:
         """All its lengths, of either sign."""
         return tuple(length for name in self.sized for length in _lengths_in(getattr(self, name)))
 
+    @property
+    def all_lengths(self) -> tuple[float, ...]:
+        """All its lengths, those twice that are known in two ways, in the order of `with_lengths`."""
+        return tuple(length for name in self.sized for length in _all_in(getattr(self, name)))
+
+    def with_lengths(self, lengths: Iterator[Any]) -> Self:
+        """Return the same value with other lengths, or with values that stand for them."""
+        return replace(self, **{name: _anew(getattr(self, name), lengths) for name in self.sized})  # type: ignore[type-var]
+
     def scaled(self, factor: float) -> Self:
         """Return the same value with every length multiplied by a factor."""
         return replace(self, **{name: _times(getattr(self, name), factor) for name in self.sized})  # type: ignore[type-var]
@@ -54,6 +63,21 @@ def _lengths_in(value: Any) -> Iterator[float]:
         yield from (length for part in value for length in _lengths_in(part))
     elif value is not None:
         yield from value.stated_lengths if isinstance(value, Stated) else (value,)
+
+
+def _all_in(value: Any) -> Iterator[float]:
+    if isinstance(value, tuple):
+        yield from (length for part in value for length in _all_in(part))
+    elif value is not None:
+        yield from value.all_lengths if isinstance(value, Stated) else (value,)
+
+
+def _anew(value: Any, lengths: Iterator[Any]) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_anew(part, lengths) for part in value)
+    if value is None:
+        return None
+    return value.with_lengths(lengths) if isinstance(value, Stated) else next(lengths)
 
 
 def _times(value: Any, factor: float) -> Any:

@@ -760,7 +760,7 @@ class Mechanism:
             unscale = self.assembly.unscale
             places = zip(COORDINATE, state.coordinate(unscale), strict=True)
             driven = {kind: {"": (value,)} for kind, value in places}
-            rows = dict(_quantities(walked(self.assembly, state, variant.mover), unscale))
+            rows = dict(walked_rows(walked(self.assembly, state, variant.mover), unscale))
             graph.forget()
             found = self._traces[variant] = names, driven | rows
         return found
@@ -904,7 +904,8 @@ def _kept(values: Array, shape: tuple[int, ...]) -> Array:
     return values if values.ndim == 1 else values.reshape(-1)
 
 
-def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+def walked_rows(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+    """Yield each kind of quantity that a walk gives, and its components by name, in the scene's unit."""
     joints, centres = walk.points, walk.centres
     for kind in VECTORS:
         part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]

@@ -245,17 +245,17 @@ class Scene:
             raise BadInput("give either angle= or phase=, in radians")
         if angle is not None:
             self.linkage.drive.check_angle(self.name, "take the phase")
-        _check_derivatives(derivatives)
+        check_derivatives(derivatives)
         by = "angle" if phase is None else "phase"
-        where = _numbers(by, angle if phase is None else phase)  # type: ignore[arg-type]
-        self._check_turns(by, float(abs(where).max(initial=0.0)))
+        where = given_numbers(by, angle if phase is None else phase)  # type: ignore[arg-type]
+        self.check_turns(by, float(abs(where).max(initial=0.0)))
         rate = self.linkage.drive.speed if speed is None else speed
         return self.mechanism.solve(
             **{by: where},
-            speed=rate if type(rate) is float else _numbers("speed", rate),
+            speed=rate if type(rate) is float else given_numbers("speed", rate),
             acceleration=acceleration
             if type(acceleration) is float
-            else _numbers("acceleration", acceleration),
+            else given_numbers("acceleration", acceleration),
             derivatives=derivatives,
         )
 
@@ -264,7 +264,8 @@ class Scene:
         """The greatest phase or angle (rad) at which a pose has all its digits."""
         return 2 * math.pi * MOST_TURNS_ON / max(self.mechanism.assembly.quickest / 2, 1.0)
 
-    def _check_turns(self, what: str, size: float) -> None:
+    def check_turns(self, what: str, size: float) -> None:
+        """Raise BadInput for a phase or angle (rad) so large that a pose would not have all its digits."""
         if size > self._most:
             turns = f"{round(self._most / (2 * math.pi)):,}"
             raise BadInput(
@@ -293,13 +294,13 @@ class Scene:
         BadInput for anything but numbers, and for `derivatives` other than 0, 1 and 2.
         """
         if derivatives not in (0, 1, 2):
-            _check_derivatives(derivatives)
+            check_derivatives(derivatives)
         rate = self.linkage.drive.speed if speed is None else speed
         # A pose takes a microsecond or two, so values that are floats already are not checked further.
         if not (type(phase) is type(rate) is type(acceleration) is float):
             phase, rate, acceleration = _as_floats(phase, rate, acceleration)
         if abs(phase) > self._most:
-            self._check_turns("phase", abs(phase))
+            self.check_turns("phase", abs(phase))
         return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -318,7 +319,7 @@ class Scene:
         return f"<table>{cells}</table>"
 
 
-def _numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
+def given_numbers(name: str, given: ArrayLike, call: str = "solve") -> NDArray[np.float64]:
     """Return what is given as an array of floats; BadInput where it is anything but numbers."""
     import numpy as np
 
@@ -328,7 +329,7 @@ def _numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
             return np.asarray(found, np.float64)
     except (TypeError, ValueError):
         pass
-    raise BadInput(f"solve({name}={shown(given)}): give numbers, one or an array of them")
+    raise BadInput(f"{call}({name}={shown(given)}): give numbers, one or an array of them")
 
 
 def _as_floats(phase: float, speed: float, acceleration: float) -> tuple[float, float, float]:
@@ -340,7 +341,8 @@ def _as_floats(phase: float, speed: float, acceleration: float) -> tuple[float, 
         ) from None
 
 
-def _check_derivatives(derivatives: int) -> None:
+def check_derivatives(derivatives: int) -> None:
+    """Raise BadInput for anything but 0, 1 and 2."""
     if derivatives not in (0, 1, 2):
         raise BadInput(
             f"derivatives={derivatives!r}: give 0 (positions), 1 (velocities) or 2 (accelerations)"

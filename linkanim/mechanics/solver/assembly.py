@@ -28,14 +28,14 @@ def assemble(linkage: Linkage) -> Assembly:
     linkage = linkage.near
     scale = _scale(linkage)
     scaled = linkage if scale == 1.0 else linkage.scaled(scale)
-    loops = _find_loops(scaled, gearings(scaled))
+    loops = find_loops(scaled, gearings(scaled))
     return _named(
         Assembly(scaled, loops, path, {}, 1.0 / scale)
         for path in _paths(scaled, loops, open_arcs(linkage, loops), 1.0 / scale)
     )
 
 
-def _find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop]:
+def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop]:
     """Return the dyads that close from a crank pin against something fixed, by the joint's name.
 
     A loop that limits a geared crank is left to the general closure.
@@ -48,7 +48,7 @@ def _find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loo
 def precise(assembly: Assembly) -> Assembly:
     """Return the assembly for many digits: its lengths stay exact in all constants computed from them."""
     linkage = assembly.linkage.scaled(Constant(1.0))
-    return replace(assembly, linkage=linkage, loops=_find_loops(linkage, gearings(linkage)))
+    return replace(assembly, linkage=linkage, loops=find_loops(linkage, gearings(linkage)))
 
 
 def resigned(assembly: Assembly) -> Assembly:
@@ -128,10 +128,10 @@ def _rank(arc: Swing, linkage: Linkage, loops: Mapping[str, Loop]) -> tuple[bool
     start, loop = linkage.drive.stated_start, loops[arc.ends[0]]
     contained = start is not None and arc.holds(start)
     left = math.sin(float(arc.middle) - float(loop.root.reference)) > 0
-    return not contained, left == _runs_back(linkage, arc.ends[0], loop)
+    return not contained, left == runs_back(linkage, arc.ends[0], loop)
 
 
-def _runs_back(linkage: Linkage, name: str, loop: Loop) -> bool:
+def runs_back(linkage: Linkage, name: str, loop: Loop) -> bool:
     """Tell whether a loop's ground starts at the pin stated later, so that its right side is above."""
     ends = {loop.crank.pivot, *linkage.joint(name).pins}
     first = next(pin.name for pin in linkage.pins if pin.name in ends)

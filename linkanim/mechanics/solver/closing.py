@@ -34,12 +34,15 @@ from linkanim.mechanics.angles import (
 from linkanim.mechanics.arithmetic import (
     Constant,
     Expr,
+    FormGraph,
     Moving,
     MovingPoint,
     Slope,
     Value,
     Vec,
+    are_inputs,
     carried,
+    known,
     maximum,
     minimum,
     select,
@@ -241,7 +244,8 @@ class Stationary:
         """
         with localcontext(context()):
             gone = nearest_sum(-exactly(amplitude) * cosine(exactly(self.place)))
-        return (state.angle - gone.high) + (state.rest - gone.low)
+        away: Value = (state.angle - gone.high) + (state.rest - gone.low)
+        return away
 
     def chosen(self, distance: SignedDistance, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
@@ -662,9 +666,12 @@ class Walk:
 
     def _length(self, n: int, ends: tuple[str, str]) -> Value:
         """Return how far two joints of one body are apart: as known, or worked out in many digits."""
-        if self.exact:
+        graph = self.state.angle.graph if isinstance(self.state.angle, Expr) else None
+        if self.exact or isinstance(graph, FormGraph):
+            one, other = (dict(self.linkage.joint(end).bars) for end in ends)
+            bar = None if self.exact else one.get(ends[1], other.get(ends[0]))
             arm = self._arm(self.pieces[n], *ends)
-            return sqrt(arm.dot(arm))
+            return sqrt(arm.dot(arm)) if bar is None else bar
         start, end = (self.linkage.rigid_bodies[n][name] for name in ends)
         return abs(end - start)
 
@@ -840,7 +847,7 @@ def _meet(
     less, is worked out; the shorter one's differs from it by ρ.
     """
     d, t, rho = triangle.across, triangle, triangle.ratio
-    if lengths[0] < lengths[1]:
+    if known(lengths[0]) < known(lengths[1]):
         arm_a = d.scaled(t.near) + t.lift
         arm_b = arm_a - d
         turning_b = t.turn_of_longer(True)
@@ -860,10 +867,13 @@ def loop_of_slider(joint: RRP, linkage: Linkage, gears: Mapping[str, Gearing]) -
         return None
     pivot, through = linkage.pin(crank.pivot), linkage.pin(joint.line.through)
     aside = aside_of(linkage, pivot, through, joint.line.angle)
-    tie = joint.length - crank.length
+    tie, reference = joint.length - crank.length, exact_angle(joint.line.angle) - quarter_turns(1)
+    if are_inputs(aside.high, joint.line.offset, tie):
+        eccentricity = Sum(aside.constant - joint.line.offset)
+        root = slider_root(crank.length, joint.length, eccentricity, reference)
+        return Loop(joint.end, crank, gears[joint.end], None, root)
     reach = sum(abs(a - b) for a, b in zip(pivot.position, through.position, strict=True))
     eccentricity = snapped(aside - Sum(joint.line.offset), (0.0, tie, -tie), reach + abs(joint.line.offset))
-    reference = exact_angle(joint.line.angle) - quarter_turns(1)
     root = slider_root(crank.length, joint.length, eccentricity, reference)
     return Loop(joint.end, crank, gears[joint.end], None, root)
 

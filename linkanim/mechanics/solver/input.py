@@ -36,7 +36,7 @@ from linkanim.mechanics.angles import (
     two_product,
     two_sum,
 )
-from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, beside, root, sqrt
+from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, are_inputs, beside, root, sqrt
 from linkanim.mechanics.linkage import CrankTriangle
 from linkanim.mechanics.precise import context, cosine, exactly, nearest_sum, sine
 from linkanim.mechanics.program import Array
@@ -70,11 +70,6 @@ class Ends:
     by_phase: bool
     signed: bool = True
 
-    @property
-    def middle(self) -> Sum:
-        """The angle in the middle."""
-        return (self.low + self.high).times(0.5)
-
     def share_of_rate(self, upper: bool, lower: bool) -> Slope:
         """Return θ' divided by √u where `upper` and by √v where `lower`: regular by phase."""
         share = self.pace.scaled(2.0)
@@ -99,13 +94,13 @@ class InputState:
     pace: Slope
     ends: Ends | None = None
     phase: Value | None = None
-    within: float = math.inf
+    within: Value = math.inf
     rest: Value = 0.0
     stated: float | None = None
 
     def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
         """Return the input's coordinate and its two rates: an angle, or a slider's travel times `unscale`."""
-        origin = float(self.origin) if self.stated is None else self.stated
+        origin = self.origin.constant if self.stated is None else self.stated
         return self.angle + origin, self.rate, self.second
 
     @property
@@ -126,8 +121,10 @@ class InputState:
         of a sine or cosine has more digits than the whole angle.
         """
         scaled, low = _scaled(self.angle, ratio)
+        if are_inputs(shift.high):
+            return form(*_summed(scaled, low, shift))
         quarters, rest = _half_turns(shift)
-        if abs(ratio) * self.within + abs(rest.high) <= _reach(form):
+        if float(abs(ratio)) * self.within + abs(rest.high) <= _reach(form):
             return form(*_summed(scaled, low, rest), quarters=quarters)
         return form(*_summed(scaled, low, shift))
 
@@ -146,7 +143,7 @@ def _half_turns(angle: Sum) -> tuple[int, Sum]:
 
 def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
     """Return the sum of an angle in two parts and a shift, in two parts."""
-    if shift.high == 0 and shift.low == 0:
+    if shift == Sum(0.0):
         return angle, low
     total, error = two_sum(angle, shift.high)
     return total, error + low + shift.low
@@ -181,9 +178,15 @@ def turn(x: Value, pace: Slope, origin: Sum) -> InputState:
     return InputState(x, origin, pace.value, pace.rate, pace)
 
 
-def swing_by_phase(phase: Value, pace: Slope, low: Sum, high: Sum) -> InputState:
-    """Return the state of a swing between two angles, driven by its phase."""
-    half, amplitude = sharp_half_angle(phase), beside(half_way(low, high), phase)
+def swing_by_phase(
+    phase: Value, pace: Slope, low: Sum, high: Sum, span: tuple[Sum, Value] | None = None
+) -> InputState:
+    """Return the state of a swing between two angles, driven by its phase.
+
+    `span` is the middle of both, and how far they are from it.
+    """
+    middle, way = span or (middle_of(low, high), half_way(low, high))
+    half, amplitude = sharp_half_angle(phase), beside(way, phase)
     scale = root(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
     half_rate, bend = pace.value * 0.5, pace.rate * 0.5
@@ -202,7 +205,7 @@ def swing_by_phase(phase: Value, pace: Slope, low: Sum, high: Sum) -> InputState
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
     # The cosine itself instead of v - u: near the middle of the swing it keeps all its digits.
-    return InputState(cosine_of(phase) * -amplitude, ends.middle, rate, second, pace, ends, phase, amplitude)
+    return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase, amplitude)
 
 
 def swing_per_input(phase: Value, low: Sum, high: Sum) -> InputState:
@@ -213,7 +216,9 @@ def swing_per_input(phase: Value, low: Sum, high: Sum) -> InputState:
     root_u, root_v = (_rated(root, sign, pace) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
     u, v = roots[0] * roots[0], roots[1] * roots[1]
     ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, pace, low, high, by_phase=False)
-    return InputState(cosine_of(phase) * -amplitude, ends.middle, 1.0, 0.0, pace, ends, phase, amplitude)
+    return InputState(
+        cosine_of(phase) * -amplitude, middle_of(low, high), 1.0, 0.0, pace, ends, phase, amplitude
+    )
 
 
 def swing_by_angle(
@@ -230,10 +235,17 @@ def swing_by_angle(
     ways_left = Slope(u, -half_rate), Slope(v, half_rate)
     ends = Ends(*ways_left, root_u, root_v, pace, low, high, by_phase=False, signed=False)
     within = half_way(low, high)
-    return InputState(angle, ends.middle, pace.value, pace.rate, pace, ends, within=within, rest=rest)
+    return InputState(
+        angle, middle_of(low, high), pace.value, pace.rate, pace, ends, within=within, rest=rest
+    )
 
 
-def half_way(low: Sum, high: Sum) -> float:
+def middle_of(low: Sum, high: Sum) -> Sum:
+    """Return the angle in the middle of two."""
+    return (low + high).times(0.5)
+
+
+def half_way(low: Sum, high: Sum) -> Any:
     """Return half of the way from one angle to another."""
     return (high - low).times(0.5).constant
 
@@ -588,12 +600,12 @@ class Swing(ThereAndBack):
     @property
     def middle(self) -> Sum:
         """The angle in the middle of the swing."""
-        return (self.low + self.high).times(0.5)
+        return middle_of(self.low, self.high)
 
     @property
     def amplitude(self) -> float:
         """Half the angle of the swing."""
-        return half_way(self.low, self.high)
+        return float(half_way(self.low, self.high))
 
     @property
     def limits(self) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 from linkanim.errors import AssemblyError
 from linkanim.frozen import NamedTuple, frozen
@@ -27,7 +28,20 @@ from linkanim.mechanics.angles import (
     sharp_half_angle,
     signed_half_angle,
 )
-from linkanim.mechanics.arithmetic import Constant, Moving, MovingPoint, Slope, Value, Vec, select, sqrt
+from linkanim.mechanics.arithmetic import (
+    Constant,
+    Moving,
+    MovingPoint,
+    Slope,
+    Value,
+    Vec,
+    arctan2,
+    are_inputs,
+    known,
+    over,
+    select,
+    sqrt,
+)
 from linkanim.mechanics.linkage import Crank, Joint, Linkage, Pin
 from linkanim.mechanics.precise import context, exactly, nearest_sum, sides, sine_and_cosine
 from linkanim.mechanics.precise import direction as direction_of
@@ -143,7 +157,7 @@ def _terms(links: Links, closing: Closure) -> _Terms:
         half.sine * half.cosine * 0.5,
         grown(float(excess) / unit),
         grown(-links.crank * short / unit, 0.5),
-        grown(short * short / unit),
+        grown(over(short * short, unit)),
         half.cosine / half.sine,
     )
 
@@ -252,8 +266,10 @@ class PinLoop:
     unit: float
 
     @property
-    def short(self) -> float:
+    def short(self) -> Any:
         """How much longer the ground is than the crank, rounded once."""
+        if are_inputs(self.crank, self.ground.high):
+            return self.ground.constant - self.crank
         return (self.ground - Sum(float(self.crank))).constant
 
     def across(self) -> Vec:
@@ -273,16 +289,16 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     w, wd = loop.pace.value, loop.pace.rate
     unit, squares = loop.unit, loop.half.squares(loop.spread)
     square = squares.sine
-    share = 0.5 / (square + short * short / unit)
+    share = 0.5 / (square + over(short * short, unit))
     # (L²)'/(4 L⁴), which is in the rates of both e and the shares of D.
     change = squares.product * w * share * share
-    excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * short * total / unit
+    excess, outer = over(2.0 * (b - a) * (b + a), unit), over(2.0 * short * total, unit)
     turn = Slope(*(_turn(loop, square, share, rate) for rate in (w, wd)))
     across = loop.across()
     triangle = Triangle(
         across=across,
-        near=(square + _near_constant(short, a, b) / unit) * share,
-        far=(square + _near_constant(short, b, a) / unit) * share,
+        near=(square + over(_near_constant(short, a, b), unit)) * share,
+        far=(square + over(_near_constant(short, b, a), unit)) * share,
         lift=across.left().scaled(root.q * share),
         turn=turn.plus(0.0, change * (root.ratio.value * excess + w * outer)),
         ratio=root.ratio,
@@ -315,9 +331,11 @@ def _turn(loop: PinLoop, square: Value, share: Value, rate: Value) -> Value:
     Where one of them is much longer, the half would cancel and leave few digits of a small remainder.
     """
     g, r, unit = loop.ground.high, loop.crank, loop.unit
-    if g < 8 * r and r < 8 * g:
-        return share * (rate * (-loop.short * (r + g) / unit)) + rate * 0.5
-    return (square - loop.short * (2.0 * r) / unit) * share * rate
+    if known(g) < 8 * known(r) and known(r) < 8 * known(g):
+        turned: Value = share * (rate * over(-loop.short * (r + g), unit)) + rate * 0.5
+        return turned
+    shared: Value = (square - over(loop.short * (2.0 * r), unit)) * share * rate
+    return shared
 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
@@ -327,8 +345,10 @@ def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
     return Triangle(loop.across(), 0.5, 0.5, lift, half_turn, root.ratio)
 
 
-def _near_constant(gap: float, near: float, far: float) -> float:
+def _near_constant(gap: Any, near: Any, far: Any) -> Any:
     """Return gap² + near² - far², that of the rounded gap rounded once."""
+    if are_inputs(gap, near, far):
+        return gap * gap + (near - far) * (near + far)
     excess = Fraction(near) ** 2 - Fraction(far) ** 2
     return Constant(float(Fraction(float(gap)) ** 2 + excess), Fraction(gap) ** 2 + excess)
 
@@ -502,6 +522,8 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     crank's own where rounding is all that tells them apart.
     """
     ground = _between(linkage, crank.pivot, end)
+    if ground and are_inputs(ground.length, crank.length):
+        return ground
     if ground and ground.length < ONE_POINT * crank.length:
         return None
     if ground and gap(ground.length, ground.rest, -crank.length) == 0:
@@ -516,6 +538,9 @@ def _between(linkage: Linkage, begin: str, end: str) -> Ground | None:
     if _written_from(first, second):
         return _written(first, turned=True)
     dx, dy = second.position[0] - first.position[0], second.position[1] - first.position[1]
+    if are_inputs(dx, dy):
+        away = sqrt(dx * dx + dy * dy)
+        return Ground(away, Vec(dx / away, dy / away), Sum(arctan2(dy, dx)))  # type: ignore[arg-type]
     length = math.hypot(dx, dy)
     if not length:
         return None
@@ -531,6 +556,9 @@ def _between(linkage: Linkage, begin: str, end: str) -> Ground | None:
 
 def aside_of(linkage: Linkage, pin: Pin, base: Pin, angle: float) -> Sum:
     """Return how far a fixed pin lies left of the line through another at an angle."""
+    if are_inputs(*base.position, *pin.position):
+        along = Vec(*direction_of(angle))
+        return Sum(along.cross(Vec(*pin.position) - Vec(*base.position)))
     (x0, y0), (x1, y1) = place(linkage, base), place(linkage, pin)
     sine, cosine = sides(angle)
     with localcontext(context()):

@@ -9,10 +9,13 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from enum import Enum
 from fractions import Fraction
+from functools import reduce
+from typing import Any
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import (
@@ -26,6 +29,7 @@ from linkanim.mechanics.angles import (
     quarter_turns,
     sine_within,
     total,
+    two_sum,
 )
 from linkanim.mechanics.arithmetic import (
     Constant,
@@ -33,9 +37,13 @@ from linkanim.mechanics.arithmetic import (
     MovingPoint,
     Slope,
     Value,
+    arctan2,
+    are_inputs,
+    known,
     maximum,
     minimum,
     nearest,
+    over,
     select,
     sqrt,
 )
@@ -74,17 +82,18 @@ class Factor(NamedTuple):
     digits.
     """
 
-    least: float
-    most: float
+    least: Any
+    most: Any
     reach: Sum
     short: Sum
 
     @property
     def kind(self) -> Kind:
         """What the factor does over the turn: it never vanishes, touches zero, or crosses it."""
-        if self.least == 0:
+        least = known(self.least)
+        if least == 0:
             return Kind.CHANGE_POINT
-        return Kind.PLAIN if self.least > 0 else Kind.LIMIT
+        return Kind.PLAIN if least > 0 else Kind.LIMIT
 
 
 ALWAYS = Factor(1.0, 1.0, quarter_turns(2), Sum(0.0))
@@ -97,11 +106,13 @@ class LoopRoot:
     `spread` is K, by which each factor varies over a turn; lengths squared are taken over `unit`.
     """
 
-    spread: float
+    spread: Any
     u: Factor
     w: Factor
     reference: Sum
-    unit: float = 1.0
+    unit: Any = 1.0
+    ample: bool | None = None
+    """Where lengths are inputs of the program: whether U stays far from zero, or may come near it."""
 
     @property
     def change_points(self) -> tuple[Sum, ...]:
@@ -112,7 +123,9 @@ class LoopRoot:
     @property
     def wide(self) -> bool:
         """True where U stays so far from zero that its digits do not depend on those of a small cosine."""
-        return self.u.least >= WIDE * self.spread or self.single
+        if self.ample is not None:
+            return self.ample
+        return self.single or bool(self.u.least >= WIDE * self.spread)
 
     @property
     def single(self) -> bool:
@@ -153,6 +166,8 @@ def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], referenc
     divided by 4 r1 r2: K is then 1, whose root is exact.
     """
     coupler, rocker = bars
+    if are_inputs(ground.high, crank, *bars):
+        return _four_bar_of_inputs(ground.constant, crank, bars, reference)
     g, r, a, b = ground.fraction, *(Fraction(length) for length in (crank, coupler, rocker))
     longer, shorter = (ground.high, ground.low), (-ground.high, -ground.low)
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
@@ -176,8 +191,10 @@ def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], referenc
 
 def alike(ground: Sum, crank: float, bars: tuple[float, float]) -> bool:
     """Tell whether a kite's pins meet: ground and crank, and both bars, differ by rounding alone."""
+    if are_inputs(ground.high, crank, *bars):
+        return False
     reach = ALIKE * math.fsum((float(ground), crank, *bars))
-    return max(abs((ground - Sum(float(crank))).constant), abs(bars[0] - bars[1])) <= reach
+    return bool(max(abs((ground - Sum(float(crank))).constant), abs(bars[0] - bars[1])) <= reach)
 
 
 def slider_root(crank: float, rod: float, eccentricity: Sum, reference: Sum) -> LoopRoot:
@@ -185,6 +202,8 @@ def slider_root(crank: float, rod: float, eccentricity: Sum, reference: Sum) -> 
 
     `eccentricity` is how far the crank's pivot lies left of the line of travel.
     """
+    if are_inputs(crank, rod, eccentricity.high):
+        return _slider_of_inputs(crank, rod, eccentricity.constant, reference)
     r, b, e = Fraction(crank), Fraction(rod), eccentricity.fraction
     left, right = (eccentricity.high, eccentricity.low), (-eccentricity.high, -eccentricity.low)
     return LoopRoot(
@@ -197,6 +216,8 @@ def slider_root(crank: float, rod: float, eccentricity: Sum, reference: Sum) -> 
 
 def slot_root(ground: Sum, crank: float, offset: float, reference: Sum) -> LoopRoot:
     """Return the root of a slot through the crank pin: √((L-o)(L+o)), L from slot pivot to pin."""
+    if are_inputs(ground.high, crank, offset):
+        return _slot_of_inputs(ground.constant, crank, offset, reference)
     g, r, o = ground.fraction, Fraction(crank), Fraction(offset)
     length = ground.high, ground.low
     least = gap(*length, -crank, -offset) * gap(*length, -crank, offset)
@@ -210,6 +231,83 @@ def slot_root(ground: Sum, crank: float, offset: float, reference: Sum) -> LoopR
 def _unless(touching: bool, most: Fraction) -> float:
     """Return the greatest value of a factor; 0 where the bars just reach each other, once a turn."""
     return 0.0 if touching else nearest(most)
+
+
+# The same roots where lengths are inputs of the program: of many linkages at once, none of them within the
+# last digits of a change point. Where a gap is a small share of the lengths in it, what rounding takes from
+# their sums is added.
+
+CLOSE, CLOSEST = 2.0**-5, 2.0**-44
+"""Shares of the perimeter below which a gap needs all digits of its lengths, and below which it is none."""
+
+Gap = tuple[tuple[Value, Value], tuple[Value, Value]]
+"""Two lengths, and two whose sum is to be taken from that of the first."""
+
+
+class Unlike(Exception):
+    """A linkage that is solved by itself, not with others of its form."""
+
+
+def _gaps(ample: Value, least: Value, *pairs: Gap) -> tuple[bool, list[Value]]:
+    """Return whether all gaps are larger than `ample`, and the gaps; Unlike where one is below `least`."""
+    plain = [(a + b) - (c + d) for (a, b), (c, d) in pairs]
+    if ample < _smallest(plain):
+        return True, plain
+    sums = [(two_sum(*one), two_sum(*other)) for one, other in pairs]
+    exact = [(one[0] - other[0]) + (one[1] - other[1]) for one, other in sums]
+    if not least < _smallest(exact):
+        raise Unlike
+    return False, exact
+
+
+def _smallest(gaps: Sequence[Value]) -> Value:
+    """Return the size of the smallest gap, each being on the side of zero on which that of the sample is."""
+    return reduce(minimum, [gap if known(gap) > 0 else -gap for gap in gaps])
+
+
+def _of_inputs(least: Value, most: Value) -> Factor:
+    """Return a factor that is known by its lengths, its reach to a float's digits."""
+    if known(least) > 0 or not most > 0:
+        return Factor(least, most, quarter_turns(2), Sum(0.0))
+    root, other = sqrt(most), sqrt(-least)
+    return Factor(least, most, Sum(arctan2(root, other) * 2.0), Sum(arctan2(other, root) * 2.0))
+
+
+def _four_bar_of_inputs(ground: Value, crank: Value, bars: tuple[Value, Value], reference: Sum) -> LoopRoot:
+    """Return the root of a four-bar as `four_bar_root` does."""
+    g, r, a, b = ground, crank, *bars
+    both, others, apart, unlike = a + b, g + r, g - r, a - b
+    perimeter = both + others
+    pairs = ((a, b), (g, r)), ((g, b), (a, r)), ((g, a), (b, r))
+    ample, (stretched, inner, outer) = _gaps(perimeter * CLOSE, perimeter * CLOSEST, *pairs)
+    u_least, w_least = stretched * perimeter, inner * outer
+    plain = known(u_least) > 0 and known(w_least) > 0
+    spread, unit = (2.0 * r, 2.0 * g) if plain else (1.0, 4.0 * g * r)
+    least = over(u_least, unit), over(w_least, unit)
+    if plain:
+        u, w = (_of_inputs(one, one + spread) for one in least)
+    else:
+        u = _of_inputs(least[0], over((both - apart) * (both + apart), unit))
+        w = _of_inputs(least[1], over((others - unlike) * (others + unlike), unit))
+    return LoopRoot(spread, u, w, reference, unit, ample)
+
+
+def _slider_of_inputs(crank: Value, rod: Value, eccentricity: Value, reference: Sum) -> LoopRoot:
+    """Return the root of a slider as `slider_root` does."""
+    r, b, e = crank, rod, eccentricity
+    pairs = ((b, 0.0), (e, r)), ((b, e), (r, 0.0))
+    ample, (u, w) = _gaps(r * (2 * WIDE), (b + r) * CLOSEST, *pairs)
+    factors = _of_inputs(u, (b - e) + r), _of_inputs(w, (b + e) + r)
+    return LoopRoot(2.0 * r, *factors, reference, ample=ample)
+
+
+def _slot_of_inputs(ground: Value, crank: Value, offset: Value, reference: Sum) -> LoopRoot:
+    """Return the root of a slot as `slot_root` does."""
+    g, r, o = ground, crank, offset
+    pairs = ((g, 0.0), (r, o)), ((g, o), (r, 0.0))
+    _, (inner, outer) = _gaps((g + r) * CLOSE, (g + r) * CLOSEST, *pairs)
+    only = _of_inputs(inner * outer, ((g + r) - o) * ((g + r) + o))
+    return LoopRoot(4.0 * g * r, ALWAYS, only, reference, ample=True)
 
 
 # Signed roots: how a dyad closes where its bars fall into one line, with all its digits and a smooth motion.
@@ -343,7 +441,7 @@ def sign_of_root(root: LoopRoot, half: Half) -> int:
     Only a change point changes it: every other factor of q is positive there.
     """
     sides = ((root.u, half.cosine), (root.w, half.sine))
-    return math.prod(-1 if factor.kind is Kind.CHANGE_POINT and side < 0 else 1 for factor, side in sides)  # type: ignore[operator]
+    return math.prod(-1 if factor.kind is Kind.CHANGE_POINT and side < 0 else 1 for factor, side in sides)
 
 
 def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value]:
@@ -367,7 +465,7 @@ class _Ways:
     y: Slope
     upper: bool
     lower: bool
-    short: float
+    short: Any
     sign: float
 
     @property
@@ -396,11 +494,11 @@ def _ways(root: LoopRoot, factor: Factor, swing: Ends | None) -> _Ways | None:
     if swing is None or factor.kind is not Kind.LIMIT:
         return None
     best = root.reference if factor is root.u else root.reference + HALF_TURN
-    middle = float(swing.low + swing.high) / 2
-    turns = round((middle - float(best)) / (2 * math.pi))
-    best = best + FULL_TURN.times(float(turns))
+    middle = (swing.low + swing.high).constant / 2
+    turns = round(known(middle - best.constant) / (2 * math.pi))
+    best = best + FULL_TURN.times(float(turns)) if turns else best
     upper, lower = (best + factor.reach - swing.high).constant, (swing.low - (best - factor.reach)).constant
-    at_upper, at_lower = upper <= OWN_LIMIT, lower <= OWN_LIMIT
+    at_upper, at_lower = known(upper) <= OWN_LIMIT, known(lower) <= OWN_LIMIT
     u, v = swing.u, swing.v
     return _Ways(
         swing,

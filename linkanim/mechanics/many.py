@@ -1,0 +1,237 @@
+"""Solve many linkages of one form, each at a phase of its own: their lengths are inputs of the program.
+
+Formulas branch on lengths: which links limit the input, which of two bars is longer. So a program is recorded
+for one of the linkages, the sample, with the conditions under which others take the same branches; it tells
+of each linkage whether it is right for it. Those for which it is not are solved by the next program.
+
+Some linkages are left to be solved by themselves: those within the last digits of a change point, those whose
+input a dyad down the chain limits, or comes near to limiting, and those driven by a length.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import field
+from functools import reduce
+
+import numpy as np
+
+from linkanim.errors import AssemblyError
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.angles import FULL_TURN, HALF_TURN, Sum, exact_angle
+from linkanim.mechanics.arithmetic import FormGraph, Slope, Value, are_inputs, known, maximum, minimum, sqrt
+from linkanim.mechanics.linkage import MOTOR, Linkage
+from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS
+from linkanim.mechanics.motion import ResultLayout, layout, walked_rows
+from linkanim.mechanics.program import Array, Batch, Bools, batch
+from linkanim.mechanics.search import around
+from linkanim.mechanics.solver.assembly import find_loops, runs_back, turns_to_return
+from linkanim.mechanics.solver.closing import Assembly, Closing, Walk, walked
+from linkanim.mechanics.solver.input import InputState, Turn, swing_by_phase
+from linkanim.mechanics.solver.loop import Loop, gearings
+from linkanim.mechanics.solver.signed_root import Kind, Unlike
+
+SAMPLES = 128
+"""Phases of a turn of the quickest crank at which dyads down the chain are looked at."""
+NEAR = 0.1
+"""The sine of the angle between two bars below which they may fall into one line between two samples."""
+AT_ONCE = 1 << 16
+MOST = 32
+"""Programs of a form; linkages for which none of them is right are solved by themselves."""
+
+
+class Program(NamedTuple):
+    """What solves the linkages that are like one sample; its last row is not negative for those.
+
+    `places` says where its other rows lie; None where these linkages cannot be put together (`apart`), or
+    each is solved by itself. `sines` gives the sines of the angles of dyads down the chain; at none of
+    `phases` may one be near zero.
+    """
+
+    run: Batch
+    places: ResultLayout | None = None
+    apart: bool = False
+    sines: Batch | None = None
+    phases: Array = np.empty(0)
+
+    def clear(self, lengths: Sequence[Array]) -> Bools:
+        """Tell in which linkages (N,) every dyad down the chain stays clear of its limits."""
+        count, clear = len(lengths[0]), np.ones(len(lengths[0]), dtype=bool)
+        last: Array | None = None
+        assert self.sines is not None
+        for phases in np.array_split(self.phases, max(1, len(self.phases) * count // AT_ONCE)):
+            given = [np.tile(one, len(phases)) for one in lengths]
+            sines = self.sines(*given, np.repeat(phases, count)).reshape(-1, len(phases), count)
+            sines = sines if last is None else np.concatenate([last, sines], axis=1)
+            steps, last = np.abs(np.diff(sines, axis=1)), sines[:, -1:]
+            clear &= (sines > NEAR).all(axis=(0, 1)) & (sines[:, 1:] > 2 * steps).all(axis=(0, 1))
+        return clear
+
+
+@frozen(eq=False)
+class LinkageForm:
+    """Linkages that differ in lengths alone: `made` gives the one whose lengths are these values.
+
+    `linkage` is one of them. Without `made` each is solved by itself.
+    """
+
+    linkage: Linkage
+    made: Callable[[Sequence[Value]], Linkage] | None
+    programs: dict[int, list[Program]] = field(default_factory=dict, repr=False)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether its linkages may be solved together.
+
+        A motor drives them, a swing goes over to the other closure at both ends, and each dyad's own side
+        names its closure.
+        """
+        drive, named = self.linkage.drive, any(joint.named_from for joint in self.linkage.joints)
+        alone = self.made is None or drive.retraced or named
+        return not alone and drive.actuator is MOTOR and self.linkage.near is self.linkage
+
+    def solved(
+        self, lengths: Sequence[Array], phases: Array, rates: tuple[float, float], derivatives: int
+    ) -> tuple[ResultLayout | None, Array, Bools]:
+        """Return where results lie, the results (rows, N), and which linkages are left to themselves (N,).
+
+        `lengths` are arrays (N,), as is `phases`. What has no pose is NaN. The layout is None where none
+        was solved.
+        """
+        programs, count = self.programs.setdefault(derivatives, []), len(phases)
+        found: tuple[ResultLayout | None, Array] = None, np.empty((0, count))
+        left, rows, n = np.zeros(count, dtype=bool), np.arange(count), 0
+        while self.uniform and len(rows) and n < MOST:
+            given = [one[rows] for one in (*lengths, phases)] if len(rows) < count else [*lengths, phases]
+            new = n == len(programs)
+            if new:
+                programs.append(recorded(self, [float(length[0]) for length in given[:-1]], derivatives))
+            program, n = programs[n], n + 1
+            with np.errstate(all="ignore"):
+                results = program.run(*given, *rates)
+                right = results[-1] >= 0
+                clear = right
+                if program.sines is not None and right.any():
+                    clear = right & program.clear(given[:-1])
+            if program.places is None:
+                left[rows[right]] = not program.apart
+            elif len(rows) == count and clear.all():
+                return program.places, results, left
+            else:
+                if found[0] is None:
+                    found = program.places, np.full((len(results), count), np.nan)
+                found[1][:, rows[clear]] = results[:, clear]
+                left[rows[right & ~clear]] = True
+            right[0] |= new  # where not even the sample is like itself
+            left[rows[:1]] |= new & (results[-1, :1] < 0)
+            rows = rows[~right]
+        left[rows] = True
+        return *found, left
+
+
+def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Program:
+    """Return the program for linkages that are like the one with these lengths."""
+    graph = FormGraph()
+    names = [f"l{n}" for n in range(len(sample))]
+    lengths = [graph.sampled(name, length) for name, length in zip(names, sample, strict=True)]
+    x, second = graph.input("x"), graph.input("a", uniform=True)
+    inputs = {**dict.fromkeys(names, True), "x": True}
+    walk, places, apart = None, None, False
+    try:
+        assert form.made is not None
+        walk = _walked(form, form.made(lengths), x, Slope(graph.input("w", uniform=True), second))
+        rows = dict(_rows(walk, derivatives))
+    except AssemblyError:
+        apart = True
+    except (Unlike, ArithmeticError, ValueError):
+        pass
+    conditions = list(dict.fromkeys(graph.conditions))
+    like = reduce(minimum, conditions) if conditions else 0.0
+    rated = {**inputs, "w": False, "a": False}
+    if walk is None:
+        return Program(batch(rated, [like]), None, apart)
+    pins = {pin.name: pin.position for pin in walk.linkage.pins if not are_inputs(*pin.position)}
+    places = layout(rows, pins, VECTORS[:3])
+    sines = [_sine(closing) for closing in walk.closings.values()]
+    turns, quickest = turns_to_return(walk.linkage, walk.assembly.loops), walk.assembly.quickest
+    return Program(
+        batch(rated, [*places.outputs, like]),
+        places,
+        sines=batch(inputs, sines) if sines else None,
+        phases=around(turns, math.ceil(SAMPLES * quickest)),
+    )
+
+
+def _rows(walk: Walk, derivatives: int) -> Iterator[tuple[str, dict[str, tuple[Value, ...]]]]:
+    """Yield the quantities with up to that many derivatives: kind, and by name their components."""
+    for kind, (_, rows) in zip((*VECTORS, *NUMBERS), walked_rows(walk, 1.0), strict=False):
+        if DERIVATIVE_OF[kind] <= derivatives:
+            yield kind, dict(rows)
+
+
+def _sine(closing: Closing) -> Value:
+    """Return the sine of a dyad's angle, 0 where it does not close."""
+    return sqrt(maximum(closing.u * closing.w * 4.0 / closing.size, 0.0))
+
+
+def _walked(form: LinkageForm, linkage: Linkage, x: Value, pace: Slope) -> Walk:
+    """Return a walk over a linkage whose lengths are values, at phase x.
+
+    AssemblyError where linkages with such lengths cannot be put together, Unlike where each is to be solved
+    by itself.
+    """
+    vars(linkage)["rigid_bodies"] = form.linkage.rigid_bodies
+    loops = find_loops(linkage, gearings(linkage))
+    for loop in loops.values():
+        if Kind.CHANGE_POINT in (loop.root.u.kind, loop.root.w.kind):
+            raise Unlike
+    signs = {joint.name: joint.named_sign for joint in linkage.joints if joint.named_sign is not None}
+    limiting = [name for name, loop in loops.items() if loop.limits]
+    if not limiting:
+        path = Turn(linkage.drive.start, 1)
+        return walked(Assembly(linkage, loops, path, signs), path.state(x, pace))
+    if len(limiting) > 1:
+        raise Unlike
+    name = limiting[0]
+    state = _swinging(linkage, loops[name], runs_back(linkage, name, loops[name]), (x, pace))
+    return walked(Assembly(linkage, loops, Turn(linkage.drive.start, 1), signs), state)
+
+
+def _swinging(linkage: Linkage, loop: Loop, below: bool, given: tuple[Value, Slope]) -> InputState:
+    """Return the state of an input that one loop limits; `below` where its range lies right of the ground.
+
+    Of two ranges it is the one that contains a stated start.
+    """
+    root, start = loop.root, linkage.drive.stated_start
+    if min(known(root.u.most), known(root.w.most)) <= 0:
+        raise AssemblyError
+    if root.u.kind is Kind.LIMIT is root.w.kind:
+        least, most = root.w.short.constant, root.u.reach.constant
+        if start is not None:
+            below = _lies_below(loop, start, below)
+        sense = -1.0 if below else 1.0
+        low, high = root.reference + Sum(least * sense), root.reference + Sum(most * sense)
+        low, high = (high, low) if below else (low, high)
+        middle, way = root.reference + Sum((least + most) * (0.5 * sense)), (most - least) * 0.5
+    else:
+        limited = root.u if root.u.kind is Kind.LIMIT else root.w
+        middle = root.reference + HALF_TURN if limited is root.w else root.reference
+        way = limited.reach.constant
+        low, high = middle - limited.reach, middle + limited.reach
+    turns = 0 if start is None else round((start - known(middle.constant)) / math.tau)
+    on = FULL_TURN.times(float(turns))
+    low, high, middle = (angle + on if turns else angle for angle in (low, high, middle))
+    return swing_by_phase(*given, low, high, (middle, way))
+
+
+def _lies_below(loop: Loop, start: float, otherwise: bool) -> bool:
+    """Tell which of two ranges contains a start; `otherwise` where none does."""
+    root = loop.root
+    if are_inputs(root.reference.high):
+        raise Unlike
+    angle = float(exact_angle(start) - root.reference)
+    cosine, sine = math.cos(angle / 2), math.sin(angle / 2)
+    if root.u.least + root.spread * (cosine * cosine) < 0 or root.w.least + root.spread * (sine * sine) < 0:
+        return otherwise
+    return math.sin(angle) < 0

@@ -1,0 +1,226 @@
+"""Solve a scene with many lengths in one call: one linkage a row, each at a phase of its own.
+
+A length is called by its key in the scene's file, "joints.B.length.0", or by that without the table's name,
+"crank" or "B.length.0"; a bar also by its body, "coupler". The lengths of which a linkage is made follow
+linearly from these: by how much is found by reading the file again with other values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkanim.errors import AssemblyError, BadInput, LinkanimError
+from linkanim.frozen import frozen
+from linkanim.intake import meant
+from linkanim.mechanics.arithmetic import Value
+from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.many import LinkageForm
+from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS, between, direction
+from linkanim.mechanics.motion import Lazy, Pose, ResultLayout, columns, layout
+from linkanim.mechanics.program import Array
+from linkanim.scenes.editing import Number, dimensions, numbers, with_dimensions, with_values
+from linkanim.scenes.files import load
+from linkanim.scenes.form import LENGTHS, Key
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene, check_derivatives, given_numbers
+from linkanim.units import shown
+
+LARGEST = 1e30
+"""Beyond it, and below its inverse, lengths are read by themselves, as a file's are."""
+LINEAR = 1e-12
+"""Share of a linkage's extent by which a length may miss the straight line through two others."""
+Columns = Mapping[str, Array]
+
+
+@frozen(eq=False)
+class Many:
+    """Many linkages of one form, each at a phase: vectors by name are arrays (N, 2), numbers (N,).
+
+    The attributes are those of a motion. What was not asked for is empty, and what has no pose is NaN.
+    """
+
+    scene: Scene
+    phase: Array
+    position: Columns = field(default_factory=dict)
+    velocity: Columns = field(default_factory=dict)
+    acceleration: Columns = field(default_factory=dict)
+    com_position: Columns = field(default_factory=dict)
+    com_velocity: Columns = field(default_factory=dict)
+    com_acceleration: Columns = field(default_factory=dict)
+    angular_velocity: Columns = field(default_factory=dict)
+    angular_acceleration: Columns = field(default_factory=dict)
+    travel: Columns = field(default_factory=dict)
+    travel_velocity: Columns = field(default_factory=dict)
+    travel_acceleration: Columns = field(default_factory=dict)
+
+    @property
+    def angle(self) -> Columns:
+        """Each body's angle, first -> second joint, at most half a turn (rad)."""
+        ends = {
+            body.name: (body.joints[0], body.joints[1])
+            for body in self.scene.linkage.bodies
+            if body.slider is None
+        }
+        return Lazy(ends, lambda name: direction(between(self.position, ends[name])))
+
+
+def solve_many(
+    scene: Scene | str,
+    lengths: Mapping[str, ArrayLike],
+    phase: ArrayLike = 0.0,
+    *,
+    speed: float | None = None,
+    acceleration: float = 0.0,
+    derivatives: int = 0,
+) -> Many:
+    """Solve many linkages of a scene's form in one call: one a row, each at a phase of its own.
+
+    `lengths` gives some of the scene's lengths, in its unit: for each name, such as "crank", "coupler" or
+    "B.length.0", numbers (N,), or one for all; the others stay as they are. `phase` (rad) is (N,), or one for
+    all. A row is what the scene with these lengths gives at that phase; NaN where they cannot be put
+    together. `derivatives` 0, 1 or 2 says how much is worked out, `speed` (rad/s) and `acceleration` (rad/s²)
+    how the phase runs; the scene's own speed where none is given. A linkage at a change point, or whose input
+    a dyad down the chain limits, takes as long as reading its file. BadInput, with all names, for an unknown
+    one, and for anything but numbers.
+    """
+    scene = load(scene) if isinstance(scene, str) else scene
+    check_derivatives(derivatives)
+    chosen = [_number(scene, name) for name in lengths]
+    given = [given_numbers(name, of, "solve_many") for name, of in (*lengths.items(), ("phase", phase))]
+    try:
+        (count,) = np.broadcast_shapes((1,), *(one.shape for one in given))
+    except ValueError:
+        told = ", ".join(f"{name} {one.shape}" for name, one in zip((*lengths, "phase"), given, strict=True))
+        raise BadInput(f"solve_many({told}): give each N numbers, or one for all") from None
+    *rows, phases = (one if one.shape == (count,) else np.repeat(one.ravel(), count) for one in given)
+    scene.check_turns("phase", max(float(phases.max()), -float(phases.min())))
+    w, a = scene.linkage.drive.speed if speed is None else float(speed), float(acceleration)
+    form = _form(scene, tuple(number.key for number in chosen))
+    places, results, left = form.solved(rows, phases, (w, a), derivatives)
+    for number, row in zip(chosen, rows, strict=True):
+        least = 1 / LARGEST if number.type.measure == "length" else -LARGEST
+        if not (row.min() > least and row.max() < LARGEST):
+            left |= ~((row > least) & (row < LARGEST))
+    pose = partial(Scene.pose, derivatives=derivatives, speed=w, acceleration=a)
+    if places is None:
+        places = _layout_of(pose(scene, 0.0), derivatives)
+        results = np.full((len(places.outputs), count), np.nan)
+    for n in np.flatnonzero(left):
+        results[:, n] = np.nan
+        try:
+            one = with_dimensions(scene, {k.key: float(row[n]) for k, row in zip(chosen, rows, strict=True)})
+        except LinkanimError:
+            continue
+        _put(results[:, n], places, pose(one, float(phases[n])))
+    return Many(scene, phases, **{kind: columns(of, results, (count,)) for kind, of in places.places.items()})
+
+
+def _layout_of(pose: Pose, derivatives: int) -> ResultLayout:
+    """Return where the quantities of a pose lie in rows."""
+    rows = {}
+    for kind in (*VECTORS, *NUMBERS):
+        if DERIVATIVE_OF[kind] <= derivatives:
+            rows[kind] = {n: of if isinstance(of, tuple) else (of,) for n, of in getattr(pose, kind).items()}
+    return layout(rows, {}, ())
+
+
+def _put(column: Array, places: ResultLayout, pose: Pose) -> None:
+    """Write a pose into its column of the results."""
+    for kind, of in places.places.items():
+        values = getattr(pose, kind)
+        for name, place in of.items():
+            if place.fixed is None:
+                column[place.row : place.row + place.count] = values[name]
+
+
+def _number(scene: Scene, name: str) -> Number:
+    """Return the number that a name calls; BadInput, with all names, where it calls none."""
+    known: dict[str, Number] = vars(scene).get("_lengths") or vars(scene).setdefault(
+        "_lengths", _named(scene)
+    )
+    if name in known:
+        return known[name]
+    listed = dict.fromkeys(".".join(map(str, number.key[1:])) for number in known.values())
+    raise BadInput(
+        f"solve_many: {scene.name} has no length {shown(name)}{meant(name, known)};"
+        f" it has {', '.join(listed)}"
+    )
+
+
+def named_lengths(scene: Scene) -> Mapping[str, Number]:
+    """Map what a length may be called to its number in the scene's document; it is cached."""
+    kept: dict[str, Any] = vars(scene)
+    if "_lengths" not in kept:
+        kept["_lengths"] = _named(scene)
+    return kept["_lengths"]  # type: ignore[no-any-return]
+
+
+def _named(scene: Scene) -> dict[str, Number]:
+    """Return the names that are one number's only."""
+    found: dict[str, list[Number]] = {}
+    for number in numbers(scene.document):
+        if number.type.measure in LENGTHS:
+            called = [".".join(map(str, key)) for key in (number.key[1:], number.key)]
+            if number.field.drag == "distance":
+                ends = set(number.ends(scene))
+                called += [body.name for body in scene.linkage.bodies if ends <= set(body.joints)]
+            for name in dict.fromkeys(called):
+                found.setdefault(name, []).append(number)
+    return {name: several[0] for name, several in found.items() if len(several) == 1}
+
+
+def _form(scene: Scene, keys: tuple[Key, ...]) -> LinkageForm:
+    """Return the form of a scene's linkages with other values of some lengths; it is cached."""
+    forms: dict[tuple[Key, ...], LinkageForm] = vars(scene).setdefault("_forms", {})
+    if keys not in forms:
+        forms[keys] = LinkageForm(scene.linkage, _made(scene, keys))
+    return forms[keys]
+
+
+def _made(scene: Scene, keys: tuple[Key, ...]) -> Callable[[Sequence[Value]], Linkage] | None:
+    """Return the linkage of a scene as a function of some of its lengths; None where it is not linear."""
+    linkage, own = scene.linkage, {one.key: one.value for one in dimensions(scene)}
+    start, step = np.array(linkage.all_lengths), linkage.extent / 8
+    rest = start.copy()
+    parts: list[list[tuple[int, float]]] = [[] for _ in start]
+    for n, key in enumerate(keys):
+        value = own[key]
+        one, two = (_lengths_with(scene, key, value + share * step) for share in (1, 2))
+        if one is None or two is None or np.abs(two - 2 * one + start).max() > LINEAR * linkage.extent:
+            return None
+        for place in np.flatnonzero(one != start):
+            same = start[place] == value and one[place] == value + step
+            along = value != 0 and abs(start[place] / value * (value + step) - one[place]) <= LINEAR * step
+            slope = 1.0 if same else start[place] / value if along else (one[place] - start[place]) / step
+            rest[place] = 0.0 if same or along else rest[place] - slope * value
+            parts[place].append((n, float(slope)))
+
+    def made(values: Sequence[Value]) -> Linkage:
+        lengths = [
+            sum((values[n] * slope for n, slope in part), float(fixed))
+            for part, fixed in zip(parts, rest, strict=True)
+        ]
+        return linkage.with_lengths(iter(lengths))
+
+    return made
+
+
+def _lengths_with(scene: Scene, key: Key, value: float) -> Array | None:
+    """Return the lengths of the linkage with another number in its document; None where it cannot be read."""
+    met: list[tuple[float, ...]] = []
+
+    def kept(read: Scene) -> None:
+        met.append(read.linkage.all_lengths)
+        raise AssemblyError("it need not be put together")
+
+    try:
+        scene_from(with_values(scene, {key: value}), name=scene.name, where=scene.name, check=kept)
+    except LinkanimError:
+        return np.array(met[0]) if met and len(met[0]) == len(scene.linkage.all_lengths) else None
+    return None
