@@ -44,18 +44,22 @@ def lacking(text: str, has: Has) -> str:
 
 
 class Setting(NamedTuple):
-    """What sets words: how a sentence on letters that it lacks begins, the way out, what letters it has."""
+    """What sets words: how a sentence on letters that it lacks begins, what comes of them, the way out."""
 
     lacks: str
     way_out: str
-    names: str = "Latin, Greek or Cyrillic"
+    instead: str = f"{STAND_IN} stands for them: "
 
 
 PIXELS = Setting("no font of this system has", "install one that has them, such as Noto Sans")
-PDF = Setting("the typeface of a PDF lacks", "write an SVG or a PNG")
+UNJOINED = Setting("plain pygame does not join", "install pygame-ce in its place")
+PDF = Setting("a PDF does not join", "write an SVG or a PNG")
 CUT_OUT = Setting(PDF.lacks, "take --way laser")
-LATEX = Setting("LaTeX's standard fonts lack", "write an HTML page", "Latin")
-LATEX_FIGURE = Setting(LATEX.lacks, "leave out --text latex and write an SVG", "Latin")
+LATEX = Setting(
+    "LaTeX's standard fonts lack",
+    "run xelatex or lualatex, with the package ctex for Chinese, Japanese or Korean, and fontspec for others",
+    "they are kept: ",
+)
 
 
 def told(letters: str, by: Setting) -> str:
@@ -64,7 +68,4 @@ def told(letters: str, by: Setting) -> str:
         return ""
     named, more = ", ".join(letters[:_MOST_NAMED]), len(letters) - _MOST_NAMED
     those = f"{named} and {more} more" if more > 0 else named
-    return (
-        f"{by.lacks} the letters {those}; {STAND_IN} stands for them: {by.way_out}, or write names in "
-        f"{by.names} letters"
-    )
+    return f"{by.lacks} the letters {those}; {by.instead}{by.way_out}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from linkanim.letters import LATEX, LATEX_FIGURE, PDF, PIXELS, Setting, lacking, told
+from linkanim.letters import LATEX, PDF, PIXELS, UNJOINED, Setting, lacking, told
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -20,22 +20,28 @@ def tell(words: str, by: Setting) -> None:
     """Say which letters of words have a stand-in where they are set so, if any has."""
     if words.isascii():
         return
-    if by in (LATEX, LATEX_FIGURE):
-        from linkanim.explain.formula import latex_has as has
+    if by is LATEX:
+        from linkanim.explain.formula import latex_has
+
+        found = {by: lacking(words, latex_has)}
     else:
-        from linkanim.picture.text import Fonts
+        from linkanim.picture.text import JOINS, Fonts, script_of
 
         fonts = Fonts()
-        has = fonts.has if by is PIXELS else fonts.face_has
-    if sentence := told(lacking(words, has), by):
-        print(sentence, file=sys.stderr)
+        found = {PIXELS: lacking(words, fonts.has)}
+        if by is not PIXELS or not JOINS:
+            there = "".join(char for char in words if fonts.has(char))
+            found[by if by is not PIXELS else UNJOINED] = lacking(there, lambda char: not script_of(char))
+    for setting, letters in found.items():
+        if sentence := told(letters, setting):
+            print(sentence, file=sys.stderr)
 
 
 def tell_of_picture(shown: Written, target: Output, *, latex: bool = False) -> None:
     """Say it of the words of a picture that was written; with `latex` they are left to LaTeX."""
     from linkanim.picture.items import words_of
 
-    by = LATEX_FIGURE if latex else _SET_BY.get(target.path.suffix.lower())
+    by = LATEX if latex else _SET_BY.get(target.path.suffix.lower())
     if by:
         tell(words_of(shown.groups()), by)
 

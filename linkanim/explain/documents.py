@@ -18,10 +18,11 @@ from html import escape
 from itertools import chain, groupby, pairwise
 from pathlib import Path
 from typing import Literal
+from unicodedata import east_asian_width
 
 import numpy as np
 
-from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, plain_latex, typeset
+from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
 from linkanim.explain.solution import Solution
 from linkanim.explain.steps import (
     HALF,
@@ -393,14 +394,23 @@ HTML = DocumentForm(
 )
 
 _PREAMBLE = r"""\documentclass[10pt,a4paper,fleqn]{article}
-\usepackage[utf8]{inputenc}
-\usepackage[T1]{fontenc}
-\usepackage{lmodern,textcomp,amsmath,tikz}
+%s\usepackage{textcomp,amsmath,tikz}
 \usepackage[margin=18mm]{geometry}
 \setlength{\parindent}{0pt}\setlength{\mathindent}{5mm}
 \allowdisplaybreaks
 \begin{document}
 \setlength{\abovedisplayskip}{3pt}\setlength{\belowdisplayskip}{3pt}
+"""
+_STANDARD = r"""\usepackage[utf8]{inputenc}
+\usepackage[T1]{fontenc}
+\usepackage{lmodern}
+"""
+_FURTHER = r"""% run xelatex or lualatex: the standard fonts lack some of the letters
+\usepackage{fontspec}
+\setmainfont{DejaVu Serif}
+"""
+_CHINESE = r"""% run xelatex or lualatex: the standard fonts lack some of the letters
+\usepackage[UTF8,scheme=plain]{ctex}
 """
 _BEFORE = "\n\n\\begin{align*}"
 
@@ -428,8 +438,11 @@ def _latex_aligned(found: list[EquationRow]) -> str:
 
 
 def _latex_page(_: str, body: str) -> str:
+    further = [char for char in body if not latex_has(char)]
+    wide = any(east_asian_width(char) in ("W", "F") for char in further)
+    fonts = _CHINESE if wide else _FURTHER if further else _STANDARD
     # a paragraph that ends before an equation would leave an empty line
-    return f"{_PREAMBLE}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
+    return f"{_PREAMBLE % fonts}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
 
 
 TEX = DocumentForm(

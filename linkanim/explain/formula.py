@@ -325,8 +325,12 @@ class _Setting:
 
 
 def plain_latex(text: str) -> str:
-    """Return words as LaTeX sets them; what its standard fonts lack is spelt, or has a stand-in."""
-    return spelt_out(normalize("NFC", text), latex_has).translate(_TEXT)
+    """Return words as LaTeX sets them; letters that its standard fonts lack are kept, for other engines."""
+    return spelt_out(normalize("NFC", text), _is_kept).translate(_TEXT)
+
+
+def _is_kept(char: str) -> bool:
+    return latex_has(char) or char.isalnum()
 
 
 def latex_has(char: str) -> bool:
@@ -375,9 +379,9 @@ def _letters(word: str) -> str:
         return f"\\{_GREEK[word]} "
     safe = re.sub(r"([#$%&_{}])", r"\\\1", re.sub(r"[\\~^]", "", normalize("NFC", word)))
     if not safe.isascii():
-        # by their numbers, as a stand-in would leave two names alike
-        numbered = _OUT_OF_LATEX.sub(lambda found: f"U{ord(found[0]):X}", safe)
-        return f"\\text{{{numbered}}}"
+        # what is no letter by its number, as a stand-in would leave two names alike
+        kept = (char if _is_kept(char) else f"U{ord(char):X}" for char in safe)
+        return f"\\text{{{''.join(kept)}}}"
     return safe if len(safe) == 1 else f"\\mathrm{{{safe}}}"
 
 

@@ -1,4 +1,4 @@
-"""The face of a document's letters: the part of it that the document carries, and how wide it sets words."""
+"""The fonts of a document's letters: the part of each that the document carries, and how wide words are."""
 
 from __future__ import annotations
 
@@ -9,21 +9,29 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from linkanim.picture.items import Caption
-from linkanim.picture.text import REGULAR, SEMIBOLD, file_of, runs, typesetting
+from linkanim.picture.text import REGULAR, SEMIBOLD, Fonts, file_of, runs, typesetting
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
 
 FAMILY = "Source Sans Pro"
+FURTHER = "Further Letters"
+"""What a document calls the fonts of this system from which it carries letters."""
 WEIGHTS = {REGULAR: 400, SEMIBOLD: 600}
-_LEFT_OUT = ["DSIG", "GDEF"]
+_LEFT_OUT = ["DSIG", "GDEF", "FFTM"]
 
 
 def rules(lines: Iterable[Caption]) -> str:
-    """Return the CSS rules by which a document carries the letters of its lines, and no others."""
+    """Return the CSS rules by which a document carries the letters of its lines, and no others.
+
+    What the bundled face lacks comes from a font of this system; what that has not either, from the reader's.
+    """
     used: dict[str, set[str]] = {face: set() for face in WEIGHTS}
+    fonts = Fonts()
     for line in lines:
-        used[_face(line)].update(char for run in runs(line.text) for char in run.text)
+        for run in runs(line.text):
+            for home, text in fonts.pieces(run.text):
+                used.setdefault(_face(line) if home == REGULAR else home, set()).update(text)
     return "".join(_rule(face, "".join(sorted(chars))) for face, chars in used.items() if chars)
 
 
@@ -42,10 +50,12 @@ def _face(line: Caption) -> str:
 
 @lru_cache(maxsize=64)
 def _rule(face: str, chars: str) -> str:
-    """Return the rule for the part of a face that has these letters, kept as they are in the face's file."""
+    """Return the rule for the part of a font that has these letters, kept as they are in the font's file."""
     from fontTools.subset import Options, Subsetter
 
-    options = Options(hinting=False, layout_features=["kern"], name_IDs=[], notdef_outline=True)
+    bundled = face in WEIGHTS
+    features = ["kern"] if bundled else ["*"]
+    options = Options(hinting=False, layout_features=features, name_IDs=[], notdef_outline=True)
     options.recalc_timestamp = False
     options.drop_tables += _LEFT_OUT
     subsetter, part = Subsetter(options), BytesIO()
@@ -55,7 +65,10 @@ def _rule(face: str, chars: str) -> str:
         font.save(part)
     data = b64encode(part.getvalue()).decode()
     where = f"src:url(data:font/ttf;base64,{data})"
-    return f"@font-face{{font-family:'{FAMILY}';font-weight:{WEIGHTS[face]};{where}}}"
+    if bundled:
+        return f"@font-face{{font-family:'{FAMILY}';font-weight:{WEIGHTS[face]};{where}}}"
+    ranges = ",".join(f"U+{ord(char):X}" for char in chars)
+    return f"@font-face{{font-family:'{FURTHER}';unicode-range:{ranges};{where}}}"
 
 
 @lru_cache
@@ -70,4 +83,4 @@ def _advances(face: str) -> tuple[int, dict[str, int]]:
 def _opened(face: str) -> TTFont:
     from fontTools.ttLib import TTFont
 
-    return TTFont(file_of(face), lazy=True, recalcTimestamp=False)
+    return TTFont(file_of(face), lazy=True, recalcTimestamp=False, fontNumber=0)

@@ -1,16 +1,19 @@
 """Items as PDF, pages as large as the picture: filled paths, and text in the bundled face.
 
+What that face lacks is set in a font of the system. A document carries of each font the letters that it has.
 A pixel is 3/4 pt, as in a browser. Needs fpdf2, which the extra `pdf` installs.
 """
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable, Sequence
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.letters import spelt_out
 from linkanim.paper.svg import flat, hexadecimal
 from linkanim.picture.items import Caption, Group, Halo, Item
@@ -85,6 +88,8 @@ def _document(size: tuple[float, float], title: str, words: str, point: float) -
     from fpdf import FPDF
     from fpdf.prefs import ViewerPreferences
 
+    # tables of a font that a document needs not are left out without a word
+    logging.getLogger("fontTools.subset").setLevel(logging.ERROR)
     page = FPDF(unit=point, format=size)
     page.set_auto_page_break(False)
     page.set_creation_date(_THEN)
@@ -125,34 +130,58 @@ def _write(page: FPDF, line: Caption, point: float, fonts: Fonts) -> None:
 
     The halo is a line along the letters and no text, so that copied words come once.
     """
-    how, style = typesetting(line.size), "B" if line.strong else ""
+    how = typesetting(line.size)
     set_ = [
-        (spelt_out(run.text, fonts.face_has), how.small if run.lowered else how.em, run.lowered * how.lower)
+        (_Font.of(page, home, strong=line.strong), text, em, run.lowered * how.lower)
         for run in runs(line.text)
+        for em in [how.small if run.lowered else how.em]
+        for home, text in fonts.pieces(spelt_out(run.text, fonts.has_alone))
     ]
-    widths = [_width(page, text, style, em * point) for text, em, _ in set_]
+    widths = [font.width(page, text, em * point) for font, text, em, _ in set_]
     x = line.at[0] - {"left": 0.0, "centre": 0.5, "right": 1.0}[line.anchor] * sum(widths)
     page.set_text_color(*line.colour)
     starts = (x + sum(widths[:n]) for n in range(len(widths)))
     placed = [
-        (text, em, (at, line.at[1] + how.baseline + lower))
-        for at, (text, em, lower) in zip(starts, set_, strict=True)
+        (font, text, em, (at, line.at[1] + how.baseline + lower))
+        for at, (font, text, em, lower) in zip(starts, set_, strict=True)
     ]
     if line.halo:
-        for text, em, place in placed:
-            _outline(page, text, style, em, place, line.halo)
-    for text, em, place in placed:
-        page.set_font(_FACE, style, em * point)
+        for font, text, em, place in placed:
+            _outline(page, text, font, em, place, line.halo)
+    for font, text, em, place in placed:
+        page.set_font(font.family, font.style, em * point)
         page.text(*place, text)
 
 
-def _outline(page: FPDF, text: str, style: str, em: float, place: tuple[float, float], halo: Halo) -> None:
+class _Font(NamedTuple):
+    """A font of a document, by its family and style there."""
+
+    family: str
+    style: str
+
+    @classmethod
+    def of(cls, page: FPDF, home: str, *, strong: bool) -> _Font:
+        """Return the bundled face in its weight, or a font of the system, which the document then carries."""
+        if home == REGULAR:
+            return cls(_FACE, "B" if strong else "")
+        family = f"system{home}".lower()
+        if family not in page.fonts:
+            page.add_font(family, "", home)
+        return cls(family, "")
+
+    def width(self, page: FPDF, text: str, size: float) -> float:
+        """Return how wide a text is at a size in points."""
+        page.set_font(self.family, self.style, size)
+        return float(page.get_string_width(text))
+
+
+def _outline(page: FPDF, text: str, face: _Font, em: float, place: tuple[float, float], halo: Halo) -> None:
     """Draw a line centred on the edges of letters."""
     from fontTools.pens.recordingPen import DecomposingRecordingPen
     from fontTools.pens.transformPen import TransformPen
     from fpdf.drawing import PaintedPath
 
-    font: Any = page.fonts[_FACE + style]
+    font: Any = page.fonts[face.family + face.style]
     glyphs, names = font.ttfont.getGlyphSet(), font.ttfont.getBestCmap()
     scale, x = em / font.ttfont["head"].unitsPerEm, place[0]
     path, pen = PaintedPath(), DecomposingRecordingPen(glyphs)
@@ -186,8 +215,3 @@ def _step(path: PaintedPath, step: str, points: Sequence[tuple[float, float]]) -
             path.curve_to(*(part for at in points for part in at))
         case _:
             path.close()
-
-
-def _width(page: FPDF, text: str, style: str, size: float) -> float:
-    page.set_font(_FACE, style, size)
-    return float(page.get_string_width(text))

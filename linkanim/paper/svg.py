@@ -11,12 +11,12 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from linkanim.paper.lettering import FAMILY, WEIGHTS, rules, width
+from linkanim.paper.lettering import FAMILY, FURTHER, WEIGHTS, rules, width
 from linkanim.picture.items import Caption, Group, Item, clipped
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.text import SEMIBOLD, runs, typesetting
 
-FACES = f"'{FAMILY}', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
+FACES = f"'{FAMILY}', '{FURTHER}', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
 _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
 _SUBSCRIPT_RIM = 0.05
 """The width of a subscript's rim at most, as a share of an em: less than what is between two letters."""

@@ -1,7 +1,7 @@
 """Set lines of text: one face in two weights and a few sizes, subscripts set as such.
 
 Each character comes from the bundled face or from the system's; what no font has is spelt, or a sign stands
-for it.
+for it. Letters that join, or run from right to left, are drawn a stretch at a time.
 Words that move are set once in a halo and placed to a quarter of a pixel, so that they glide.
 """
 
@@ -14,8 +14,9 @@ from bisect import bisect_left
 from collections.abc import Hashable, Iterable, Iterator
 from functools import cached_property
 from io import BytesIO
-from itertools import pairwise, product
+from itertools import groupby, pairwise, product
 from math import ceil, prod
+from operator import itemgetter
 from pathlib import Path
 from typing import Literal
 from unicodedata import normalize
@@ -25,7 +26,7 @@ import pygame
 from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple
-from linkanim.letters import spelt
+from linkanim.letters import spelt_out
 from linkanim.picture.raster import Colour, offscreen, pixel_view
 from linkanim.picture.shapes import directions
 
@@ -47,6 +48,14 @@ _WIDE = (
     *("dejavusans", "freesans"),
 )
 """Families with many characters, as pygame names them; looked through in this order."""
+_JOINED = {
+    **{"ARABIC": "Arab", "SYRIAC": "Syrc", "NKO": "Nkoo", "HEBREW": "Hebr", "MONGOLIAN": "Mong"},
+    **{"DEVANAGARI": "Deva", "BENGALI": "Beng", "GURMUKHI": "Guru", "GUJARATI": "Gujr", "TAMIL": "Taml"},
+    **{"TELUGU": "Telu", "KANNADA": "Knda", "MALAYALAM": "Mlym", "THAI": "Thai", "KHMER": "Khmr"},
+}
+"""Scripts whose letters depend on their neighbours, by their names in Unicode and in OpenType."""
+JOINS = hasattr(pygame.font.Font, "set_script")
+"""Whether letters are joined here: pygame-ce does it, by SDL_ttf."""
 
 
 class Fonts:
@@ -54,7 +63,7 @@ class Fonts:
 
     def __init__(self) -> None:
         pygame.font.init()
-        self._opened: dict[tuple[str, int], pygame.font.Font] = {}
+        self._opened: dict[tuple[str, int, str], pygame.font.Font] = {}
         self._faces: dict[str, bytes] = {}
         self._spelt: dict[str, tuple[str, str]] = {}
 
@@ -71,7 +80,7 @@ class Fonts:
         return self._font(REGULAR, em).get_ascent()
 
     def render(self, char: str, em: int, colour: tuple[int, int, int], *, face: str) -> pygame.Surface:
-        """Return a character on a clear surface, as high as a line of the bundled face; 0 wide if left out.
+        """Return a glyph on a clear surface, as high as a line of the bundled face; 0 wide if left out.
 
         `em` is the face's size in pixels, `face` REGULAR or SEMIBOLD.
         """
@@ -81,25 +90,40 @@ class Fonts:
             return bundled.render(text, True, colour)
         if home == REGULAR:
             return pygame.Surface((0, bundled.get_height()))
-        font = self._font(home, em)
+        font = self._font(home, em, script_of(text))
         drawn = font.render(text, True, colour)
         line = pygame.Surface((drawn.get_width(), bundled.get_height()), pygame.SRCALPHA, 32)
         line.blit(drawn, (0, bundled.get_ascent() - font.get_ascent()))
         return line
 
     def advance(self, char: str, em: int, *, face: str, after: str = "") -> int:
-        """Return a character's advance in pixels, kerned to the character `after` it."""
+        """Return a glyph's advance in pixels, kerned to the one `after` it."""
         home, text = self._spelling(char)
-        font = self._font(face if home == REGULAR else home, em)
+        font = self._font(face if home == REGULAR else home, em, script_of(text))
         beside, neighbour = self._spelling(after) if after else (REGULAR, "")
         if home != REGULAR or beside != REGULAR:
             return font.size(text)[0]
         return font.size(text + neighbour)[0] - font.size(neighbour)[0]
 
-    def _font(self, path: str, em: int) -> pygame.font.Font:
-        if (path, em) not in self._opened:
-            self._opened[path, em] = pygame.font.Font(self._source(path), em)
-        return self._opened[path, em]
+    def pieces(self, text: str) -> list[tuple[str, str]]:
+        """Return a text in pieces of one font each: its file (REGULAR: the bundled face), and what is set."""
+        spellings = ((char, *self._spelling(char)) for char in text)
+        found = groupby(spellings, key=itemgetter(1))
+        return [(home, "".join(spelling for _, _, spelling in piece)) for home, piece in found]
+
+    def has_alone(self, char: str) -> bool:
+        """Return whether a font has a character, and its form does not depend on its neighbours."""
+        return self.has(char) and not script_of(char)
+
+    def _font(self, path: str, em: int, script: str = "") -> pygame.font.Font:
+        key = path, em, script
+        if key not in self._opened:
+            self._opened[key] = font = pygame.font.Font(self._source(path), em)
+            if script and JOINS:
+                font.set_script(script)
+                rightward = script not in ("Arab", "Syrc", "Nkoo", "Hebr")
+                font.set_direction(pygame.DIRECTION_LTR if rightward else pygame.DIRECTION_RTL)
+        return self._opened[key]
 
     def _source(self, path: str) -> str | BytesIO:
         """Return what a font is read from: the bundled face from memory, so that no file stays open."""
@@ -116,11 +140,11 @@ class Fonts:
         return self._spelt[char]
 
     def _found(self, char: str) -> tuple[str, str]:
-        if _is_seen(char) and not self.face_has(char):
+        if _is_seen(char) and not self.face_has(char) and (JOINS or not script_of(char)):
             homes = (path for path in self._system() if _has(self._font(path, 24), char))
             if home := next(homes, None):
                 return home, char
-        return REGULAR, spelt(char, self.face_has)
+        return REGULAR, spelt_out(char, self.face_has)
 
     def _system(self) -> Iterator[str]:
         """Yield the files of the system's fonts, first those that were needed before."""
@@ -149,11 +173,16 @@ def _files() -> Iterator[str]:
 
 def _is_seen(char: str) -> bool:
     """Tell whether a character can have a glyph of its own: spaces, controls and lone marks have none."""
-    return char.isprintable() and not char.isspace() and not unicodedata.combining(char)
+    return char.isprintable() and not char.isspace() and not unicodedata.combining(char[0])
 
 
 def _has(font: pygame.font.Font, char: str) -> bool:
-    """Tell whether a font has a visible glyph of a character, not only its sign for a missing one."""
+    """Tell whether a font has a visible glyph of a character, not only its sign for a missing one.
+
+    Of letters that join it has to have each that is seen by itself.
+    """
+    if len(char) > 1:
+        return all(_has(font, one) for one in char if _is_seen(one))
     if font.size(char)[0] == 0:
         return False
     measured = font.metrics(char)
@@ -162,6 +191,31 @@ def _has(font: pygame.font.Font, char: str) -> bool:
     drawn = [font.render(text, True, (0, 0, 0)) for text in (char, _NOWHERE)]
     ours, none = (pygame.image.tobytes(one, "RGBA") for one in drawn)
     return ours != none
+
+
+def script_of(text: str) -> str:
+    """Return the script of a text whose first letter depends on its neighbours; "" for any other."""
+    return "" if text.isascii() else _JOINED.get(unicodedata.name(text[0], "").partition(" ")[0], "")
+
+
+def glyphs_of(text: str) -> list[str]:
+    """Return a text in what is drawn at once: a character, or a stretch of letters that join."""
+    found: list[str] = []
+    script = ""
+    for char in text:
+        own = script_of(char) or (script if char == " " or unicodedata.combining(char) else "")
+        if own and own == script:
+            found[-1] += char
+        else:
+            found.append(char)
+        script = own
+    return [part for whole in found for part in _ending(whole)]
+
+
+def _ending(whole: str) -> list[str]:
+    """Return a stretch, and the spaces that it ends in by themselves."""
+    bare = whole.rstrip(" ") or whole
+    return [bare, *whole[len(bare) :]]
 
 
 # Text: one face in two weights and a few sizes, every glyph rendered once, subscripts set as such.
@@ -230,7 +284,7 @@ def subscripted(name: str) -> str:
 
 
 _Place = tuple[str, int, int, int]
-"""A glyph of a line: the character, its size, how far right (in fractions of a pixel) and how far down."""
+"""A glyph: what is drawn at once, its size, how far right (in fractions of a pixel) and how far down."""
 
 
 class Inked(NamedTuple):
@@ -345,7 +399,7 @@ class Type:
         for run in runs(text):
             small = max(round(_SUB * size), min(size, _LEAST)) if run.lowered else size
             top = (round(_LOWER * size) if run.lowered else 0) - self._ascent(small)
-            for char, after in pairwise((*run.text, "")):
+            for char, after in pairwise((*glyphs_of(run.text), "")):
                 yield char, small, x, top
                 key = char, after, small, face
                 if key not in self._steps:
