@@ -11,8 +11,6 @@ From the ground up; a module imports from those before it only:
     edits      actions that show another scene, and that edit dimensions
     sketching  what the pencil and poses share: answers come, one is kept
     dial       the pencil's dial, from the most exact answer to the most compact
-    pencil     actions of the pencil, which draws a stroke
-    posing     actions that set down poses
     building   actions of the sheet, on which a linkage is built
     pointing   what is under the mouse, and the words about it
     shown      the state as an overlay
@@ -22,6 +20,8 @@ From the ground up; a module imports from those before it only:
     listing    a mode: the list of quantities, or of commands
     finding    a mode: one field that finds anything
     shelving   a mode: the shelf
+    pencil     a mode: a stroke is drawn, and linkages that follow it come
+    posing     a mode: poses of a body are set down, and linkages that pass them come
     making     the steps of a construction; a mode: layers in which a scene can be made
     naming     a mode: the name of the file to be written
     taking     a mode: how a recording is made, and where it goes

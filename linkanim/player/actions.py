@@ -17,14 +17,14 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
-from linkanim.player import building, dial, edits, making, pencil, posing, rules, sketching, taking
+from linkanim.player import building, edits, making, rules, taking
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
 from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.modes import MODES
 from linkanim.player.naming import Naming
-from linkanim.player.sketching import come, keep, left
+from linkanim.player.sketching import REFUSED, left
 from linkanim.player.state import (
     ATTRACT_AFTER,
     CHIP_FRAMES,
@@ -227,8 +227,6 @@ def back(state: State, _: None) -> State:
         return replace(state, help=False)
     if state.top:
         return state.top.closed(state)
-    if state.sketch and not state.editing.open:
-        return posing.let_go(state) or left(state)
     if state.building:
         return building.let_go(state) or building.left(state)
     if state.editing.open and state.editing.begun:
@@ -335,19 +333,6 @@ def with_scene(state: State, scene: Scene, phase: float = 0.0, *, paused: bool =
 # The one table of actions: what value each may have, what it does, and whether a tape keeps it.
 
 
-def _either(
-    of_sheet: Callable[[State, Any], State], of_poses: Callable[[State, Any], State]
-) -> Callable[[State, Any], State]:
-    """Return the handler of an action that poses share with a sheet, or with the pencil."""
-    return lambda state, value: (of_poses if state.posing else of_sheet)(state, value)
-
-
-def _dial_on(state: State, steps: int) -> State:
-    """Turn the dial of poses or of the pencil, or go along the family of the present scene."""
-    handle = posing.dial_on if state.posing else dial.dial_on if state.drawing else making.along
-    return handle(state, steps)
-
-
 def _speed(_: State, after: State) -> str:
     """Say the input's speed."""
     return speed_words(after.scene, after.clock.speed)
@@ -427,6 +412,7 @@ def _of_look(name: str) -> Rule:
 
 
 ACTIONS: Mapping[str, Rule] = {
+    **{name: rule for mode in MODES for name, rule in mode.actions.items()},
     "pause": Rule(rules.nothing, _pause),
     "step": Rule(rules.whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
     "speed": Rule(rules.whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
@@ -475,38 +461,7 @@ ACTIONS: Mapping[str, Rule] = {
     "reset": Rule(rules.nothing, edits.reset),
     "returns": Rule(rules.nothing, edits.returns, answer=_returns),
     "redo": Rule(rules.nothing, edits.redo, answer=_stuck("nothing to redo")),
-    "pencil": Rule(rules.nothing, pencil.pencil),
-    "own_trace": Rule(rules.nothing, pencil.own),
-    "pen_down": Rule(rules.numbers(2), pencil.down),  # (x, y) in the scene's unit
-    "pen_to": Rule(rules.numbers(2), pencil.along),
-    "pen_up": Rule(rules.nothing, pencil.up),
-    "pen_off": Rule(rules.nothing, pencil.off),
-    "stroke": Rule(rules.pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
-    "follow": Rule(rules.answer, sketching.follow),  # an answer's numbers
-    "answers": Rule(rules.answers, pencil.answers),  # on older tapes: as "cards", without sizes and angles
-    "cards": Rule(
-        rules.cards, _either(pencil.cards, posing.cards)
-    ),  # which one is shown; the numbers of each
-    "way": Rule(rules.cards, pencil.way),  # 0; the numbers of each answer along the front
-    "dial": Rule(
-        rules.share, _either(dial.dial, posing.dial)
-    ),  # from 0 to 1, the most compact; of poses steepest
-    "dial_on": Rule(rules.whole, _dial_on),  # so many steps further
-    "answer": Rule(rules.whole, sketching.choose),  # its place in the row
-    "cognate": Rule(rules.whole, pencil.cognate),  # its place among those that turn fully, from 0
-    "take_point": Rule(rules.whole, pencil.take_point),  # its place on the stroke
-    "take_pivot": Rule(rules.text, pencil.take_pivot),
-    "lead": Rule(rules.numbers(2), pencil.lead),  # to (x, y) in the scene's unit
-    "let_go": Rule(rules.nothing, pencil.let_go),
-    "keep": Rule(rules.nothing, sketching.keep),
-    "take_back": Rule(rules.nothing, sketching.take_back),
-    "poses": Rule(rules.nothing, posing.poses),
-    "set_poses": Rule(rules.triples, posing.put),  # 1 with a slider, else 0; x, y, angle (rad) of each
-    "set_pin": Rule(rules.place_of_sheet, posing.pin),  # (x, y) in the scene's unit
-    "pinning": Rule(rules.nothing, posing.pinning),
-    "sliding": Rule(rules.nothing, posing.sliding),
-    "theory": Rule(rules.nothing, posing.curves),
-    "unmet": Rule(rules.text, posing.unmet),  # why there is no linkage
+    "dial_on": Rule(rules.whole, making.along),  # so many steps further
     "play": Rule(rules.text, play),  # a game's words
     # what games have in common; each says what they do in it
     "option": Rule(rules.whole, _unused),  # the place of an answer, from 0
@@ -521,11 +476,11 @@ ACTIONS: Mapping[str, Rule] = {
     "tool_on": Rule(rules.whole, building.tool_on),  # tools further
     "photo": Rule(rules.text, building.photo),  # a picture's file, "" for none
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
-    "hand_down": Rule(rules.hand, _either(building.down, posing.down)),
-    "hand_to": Rule(rules.hand, _either(building.along, posing.along)),
-    "hand_up": Rule(rules.nothing, _either(building.up, posing.up)),
-    "cursor": Rule(rules.place_of_sheet, _either(building.cursor, posing.cursor)),  # (x, y) of the sheet
-    "further": Rule(rules.whole, _either(building.further, posing.further)),
+    "hand_down": Rule(rules.hand, building.down),
+    "hand_to": Rule(rules.hand, building.along),
+    "hand_up": Rule(rules.nothing, building.up),
+    "cursor": Rule(rules.place_of_sheet, building.cursor),  # (x, y) of the sheet
+    "further": Rule(rules.whole, building.further),
     "offer": Rule(rules.whole, building.offer),  # the place of what the last drag can mean
     "number": Rule(rules.whole, building.number),
     "option_on": Rule(rules.nothing, building.option),  # another of what the chosen row of the sheet can be
@@ -535,7 +490,7 @@ ACTIONS: Mapping[str, Rule] = {
     "reassemble": Rule(
         rules.nothing, building.reassemble, answer=_closure
     ),  # as "closure", and the sheet stays
-    "remove": Rule(rules.nothing, _either(building.remove, posing.remove)),
+    "remove": Rule(rules.nothing, building.remove),
     "trace_on": Rule(rules.nothing, building.trace),
     "drive_by": Rule(rules.nothing, building.drive),
     "unbuild": Rule(rules.nothing, building.undo, answer=_stuck("nothing to undo")),
@@ -550,7 +505,6 @@ ACTIONS: Mapping[str, Rule] = {
     "screenshot": Rule(rules.nothing, shot("screenshot"), taped=False),
     "svg": Rule(rules.nothing, shot("svg"), taped=False),
     "share": Rule(rules.nothing, effect("share"), taped=False),
-    **{name: rule for mode in MODES for name, rule in mode.actions.items()},
     "record": Rule(rules.one_of(*taking.FORMATS), taking.record, taped=False),
     "period": Rule(rules.one_of(*taking.FORMATS), taking.period, taped=False),
     "take_into": Rule(rules.text, taking.into, taped=False),  # the file
@@ -584,12 +538,12 @@ def is_taped(action: Action) -> bool:
 # A frame is three steps, so that the window can ask what a key means once earlier keys are carried out: the
 # state grows a frame older, each action is carried out, and a kiosk left alone shows its title.
 
-_WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
-"""Actions that are refused while a path is drawn: its points keep their unit, and edits are the scene's."""
-_KEEPS = frozenset({"edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers"})
-_LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
-"""Actions that keep the pencil's answer first, and those that first go back to the scene before."""
-_OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace", "poses"}
+_OFF_THE_SHEET = frozenset(
+    {
+        *("edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers", "pencil", "own_trace"),
+        *("poses", "mechanism", "select", "put", "closure", "reset", "returns"),
+    }
+)
 """Actions for which a sheet is left first."""
 _IN_THE_LIST = frozenset({"closure", "reset", "returns"})
 """Those of these actions that stay on the sheet while the list of dimensions is open on it."""
@@ -624,7 +578,7 @@ def aged(state: State) -> State:
     sinces = ((name, getattr(state, name), life) for name, life in _LIVES.items())
     over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
-    state = building.rested(come(state) if state.sketch else state)
+    state = building.rested(state)
     for mode in state.modes:
         state = mode.aged(state)
     if state.glide:
@@ -643,7 +597,7 @@ def carried(state: State, action: Action) -> State:
     if state.game and action.name not in beside:
         return _in_a_game(state, state.game, action)
     rule = own.get(action.name) or ACTIONS[action.name]
-    if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:
+    if any(action.name in one.refuses for one in state.modes) or (state.building and action.name in REFUSED):
         return state
     if state.game and action.name in _SHEETS:
         state = leave(state)
@@ -653,9 +607,7 @@ def carried(state: State, action: Action) -> State:
     if action.name in _OFF_THE_SHEET and not (numbers and action.name in _IN_THE_LIST):
         state = building.left(state)
     for mode in reversed(state.modes):
-        state = mode.before(state, action)
-    if action.name in _KEEPS | _LEAVES:
-        state = keep(state, None) if action.name in _KEEPS else left(state)
+        state = mode.ready_for(state, action)
 
     if action.name == "list" and state.building and (missing := state.building.building.made.missing):
         return with_toast(state, missing)  # only a linkage that moves has quantities

@@ -76,29 +76,10 @@ _SHEET = (
     BarEntry("done", Action("build"), 3),
     *LAST_BAR,
 )
-_PENCIL = (
-    BACK_BAR,
-    HOME_BAR,
-    *MOVING_BAR,
-    BarEntry("again", Action("take_back"), 3, leads=True),
-    BarEntry("done", Action("keep"), 1),
-    *LAST_BAR,
-)
-_POSES = (
-    BACK_BAR,
-    HOME_BAR,
-    *MOVING_BAR,
-    BarEntry("again", Action("take_back"), 3, leads=True),
-    BarEntry("construction", Action("theory"), 4),
-    BarEntry("done", Action("keep"), 1),
-    *LAST_BAR,
-)
 _HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
     "play": (HOME_BAR._replace(rank=0), *_SCENE),
     "paused": (HOME_BAR._replace(rank=0), *_SCENE),
     "edit": tuple(_BUILD_ON if one.icon == "build" else one for one in LISTED_BAR),
-    "pencil": _PENCIL,
-    "poses": _POSES,
     **{"build": _SHEET, "numbers": _SHEET},
     "game": (BACK_BAR, HOME_BAR, *LAST_BAR),
 }

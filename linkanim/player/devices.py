@@ -23,7 +23,7 @@ from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import Bind, ModeKeys, Press, bind_of, button_name, hat_name, key_of
 from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
-from linkanim.player.state import State
+from linkanim.player.state import NEAR_HAND, REACH, State
 from linkanim.scenes.editing import phase_along, phase_towards
 
 # The keyboard: key events become presses, and a held key an action that repeats.
@@ -284,9 +284,6 @@ def _bound(name: str, mode: ModeKeys) -> Bind | None:
 
 # The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value.
 
-_REACH = 0.035  # of the window's height
-_NEAR = 0.02
-"""How near counts as on a joint or a curve for a card of words, in heights of the window."""
 _TOLD = 180
 """Frames after the mouse's last move for which things that pass below it show their words."""
 _RIGHT = 3
@@ -329,8 +326,6 @@ _DOUBLE = 24
 """The most frames between the clicks of a double click on a button."""
 _STILL = 0.006
 """How far the hand may move in a click on paper, in heights of the window."""
-_PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
-"""The kind of drag that follows, by the action that the pencil has begun."""
 _LET_GO: Mapping[Drag | None, str] = {
     **{"pan": "", "crank": "", "chart": "", "paper": "", "joint": "drop"},
     **{"pen": "pen_off", "lead": "let_go", "hand": "back"},
@@ -361,10 +356,10 @@ class Mouse:
         self.far, self.steps = 0.0, 0
         self._turned: int | None = None
         self._slider = 0
-        self._cognate: int | None = None
+        self.under: int | None = None
         self._seen, self._moved_in = False, 0
         self._down_in = 0
-        self._is_long = self._draws = self._turns = False
+        self._is_long = self.draws = self._turns = False
         self._pressed: tuple[Action, ...] = ()
         self._pressed_at, self._pressed_in = (0.0, 0.0), -_DOUBLE - 1
 
@@ -381,7 +376,7 @@ class Mouse:
         self.at = getattr(event, "pos", self.at)
         if kind == "down":
             self.begun, self.far, self._down_in = self.at, 0.0, screen.state.frame
-            self._draws = False
+            self.draws = False
         self.far = max(self.far, math.dist(self.begun, self.at))
         if kind == "up" and self._presses_long(screen):
             return self._pressed_long(screen)
@@ -404,9 +399,7 @@ class Mouse:
         if top and (found := top.mouse(gesture, self, screen)) is not None:
             return found
         modes = {
-            "poses": self._of_the_poses,
             **{"build": self._of_the_sheet, "numbers": self._of_the_numbers, "edit": self._of_the_tools},
-            "pencil": self._of_the_pencil,
             "game": self._in_a_game,
         }
         mode = modes.get(screen.state.mode)
@@ -424,9 +417,11 @@ class Mouse:
             return (Action("menu"),)
         if screen.state.building:
             chosen = screen.on_sheet(*self.at)
-            click = (self._handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
+            click = (self.handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
             return click if chosen else (Action("menu"),)
-        if screen.state.mode in _THINGS_IN and (found := screen.pointed(*self.at, _NEAR * screen.size[1])):
+        if screen.state.mode in _THINGS_IN and (
+            found := screen.pointed(*self.at, NEAR_HAND * screen.size[1])
+        ):
             of_scene = found.thing and found.thing.kind != "row"
             words = f"{found.thing.kind} {found.thing.name}" if found.thing and of_scene else ""
             return (Action("menu", words or ("chart" if screen.charted(*self.at) is not None else None)),)
@@ -441,7 +436,7 @@ class Mouse:
         """Return whether a release now ends a long press: nothing was dragged."""
         long = _LONG <= screen.state.frame - self._down_in < _TOO_LONG
         still = self.far <= _LONG_STILL * screen.size[1]
-        return long and still and self.drag in _LET_GO and not self._draws
+        return long and still and self.drag in _LET_GO and not self.draws
 
     def _pressed_long(self, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a long press: those of a right click, after ending what the press began."""
@@ -518,8 +513,8 @@ class Mouse:
                 if order := screen.polygon_at(*self.at):
                     self.drag, alone = "bar", screen.state.look.large_polygon
                     return (Action("large_polygon"),) * ((3 - alone) if alone else order)
-                handle = screen.handle_at(*self.at, _REACH * screen.size[1])
-                curve = None if handle else screen.on_trace(*self.at, _NEAR * screen.size[1])
+                handle = screen.handle_at(*self.at, REACH * screen.size[1])
+                curve = None if handle else screen.on_trace(*self.at, NEAR_HAND * screen.size[1])
                 self.drag = "joint" if handle or curve else self._grabbed(screen)
                 if handle:
                     return (Action("grab", handle),)
@@ -533,7 +528,7 @@ class Mouse:
 
     def _on_a_row(self, screen: Screen) -> str | None:
         """Return the label of the row of numbers under the mouse; None elsewhere."""
-        found = screen.pointed(*self.at, _NEAR * screen.size[1]) if self.drag is None else None
+        found = screen.pointed(*self.at, NEAR_HAND * screen.size[1]) if self.drag is None else None
         return found.thing.name if found and found.thing and found.thing.kind == "row" else None
 
     def _on_a_list(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
@@ -561,7 +556,7 @@ class Mouse:
         if gesture.kind != "down" or self.drag is not None:
             return None
         option = screen.option_at(*self.at)
-        at_joint = screen.handle_at(*self.at, _REACH * screen.size[1]) is not None
+        at_joint = screen.handle_at(*self.at, REACH * screen.size[1]) is not None
         if option is None and (screen.over.handles or at_joint or self._is_at_pin(screen)):
             return None
         return (Action("next") if option is None else Action("option", option),)
@@ -593,10 +588,10 @@ class Mouse:
         if not self._seen or screen.over.shelf or self.drag in ("pan", "chart", "row"):
             return None
         on_a_list = self.drag is None and screen.row_at(*self.at) is not None
-        if on_a_list or screen.state.mode in ("pencil", "poses", "build", "numbers", "layers"):
+        if on_a_list or not (screen.state.leads or screen.state.mode in ("edit", "game")):
             return None
         at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
-        return screen.handle_at(*self.at, _REACH * screen.size[1]) or at_pin
+        return screen.handle_at(*self.at, REACH * screen.size[1]) or at_pin
 
     def over_scene(self, screen: Screen, frame: int) -> Pointed | None:
         """Return the part of the scene under the mouse; None where it rests while the scene runs."""
@@ -604,55 +599,11 @@ class Mouse:
         rests = frame - self._moved_in > _TOLD and not screen.state.clock.paused
         if not shown or rests or screen.button_at(*self.at) is not None:
             return None
-        return screen.pointed(*self.at, _NEAR * screen.size[1])
+        return screen.pointed(*self.at, NEAR_HAND * screen.size[1])
 
     def _is_at_pin(self, screen: Screen) -> bool:
         pin = screen.crank_pin()
-        return max(abs(self.at[0] - pin[0]), abs(self.at[1] - pin[1])) <= _REACH * screen.size[1]
-
-    def _of_the_pencil(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Draw, or drag what is under the pencil; None where the mouse acts as without a pencil."""
-        reach = _REACH * screen.size[1]
-        if gesture.kind == "down" and screen.charted(*self.at) is None:
-            begun = screen.pencil_at(*self.at, reach)
-            self._cognate = screen.cognate_at(*self.at, _NEAR * screen.size[1])
-            self.drag = _PENCIL.get(begun.name)
-            return (begun,)
-        if self.drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
-            return None
-        if gesture.kind == "move" and self.drag == "dial":
-            return (Action("dial", screen.dialled(self.at[0])),)
-        if gesture.kind == "move":
-            return (Action("pen_to" if self.drag == "pen" else "lead", screen.world(*self.at)),)
-        drag, self.drag = self.drag, None
-        if drag != "pen":
-            return (Action("let_go"),)
-        if self.far > reach:
-            return (Action("pen_up"),)
-        taken = () if self._cognate is None else (Action("cognate", self._cognate),)
-        return (Action("pen_off"), *taken)
-
-    def _of_the_poses(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Take an answer, or set down and drag frames and pins; None where the mouse acts as usual."""
-        if gesture.kind == "down" and screen.charted(*self.at) is None:
-            place = screen.answer_at(*self.at)
-            if place is not None:
-                self.drag = None
-                return (Action("answer", place),)
-            if screen.on_dial(*self.at):
-                self.drag = "dial"
-                return (Action("dial", screen.dialled(self.at[0])),)
-            self.drag = "hand" if screen.posed_at(*self.at) else "pan"
-            self._draws = self.drag == "hand" and not screen.on_pose(*self.at)
-            return (self._handed("hand_down", screen),) if self.drag == "hand" else ()
-        if self.drag not in ("hand", "dial") or gesture.kind not in ("move", "up"):
-            return None
-        drag = self.drag
-        if gesture.kind == "move":
-            moved = self._handed("hand_to", screen) if drag == "hand" else None
-            return (moved or Action("dial", screen.dialled(self.at[0])),)
-        self.drag = None
-        return (Action("hand_up"),) if drag == "hand" else ()
+        return max(abs(self.at[0] - pin[0]), abs(self.at[1] - pin[1])) <= REACH * screen.size[1]
 
     def _of_the_tools(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Take a tool beside the list of dimensions; None where the mouse acts as usual."""
@@ -680,7 +631,7 @@ class Mouse:
                 return (Action(TOOLS[tool].action, TOOLS[tool].value),)
             self._turns = begun == "crank"
             self.drag = "paper" if begun == "paper" else "hand"
-            return (self._handed("hand_down", screen),) if self.drag == "hand" else ()
+            return (self.handed("hand_down", screen),) if self.drag == "hand" else ()
         if self.drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
             return None
         drag, stays = self.drag, self.far <= _STILL * screen.size[1]
@@ -689,14 +640,14 @@ class Mouse:
                 self.drag = "crank"
                 return (Action("back"), *self._moved(screen))
             if drag == "hand":
-                return () if self._turns else (self._handed("hand_to", screen),)
+                return () if self._turns else (self.handed("hand_to", screen),)
             return () if stays else (Action("pan", gesture.by),)
         self.drag = None
         if drag == "hand":
             return (Action("hand_up"),)
-        return (self._handed("hand_down", screen), Action("hand_up")) if stays else ()
+        return (self.handed("hand_down", screen), Action("hand_up")) if stays else ()
 
-    def _handed(self, name: str, screen: Screen) -> Action:
+    def handed(self, name: str, screen: Screen) -> Action:
         """Return the hand's action on the sheet; its step is a tenth with Shift, and none with Alt."""
         mods = pygame.key.get_mods()
         part = 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0

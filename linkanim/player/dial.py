@@ -73,7 +73,7 @@ def dial(state: State, share: float) -> State:
         state = replace(exchanged(state, base), faded=state.frame)
     coming = ready(answer.scene(sketch.unit, base), state.phase)
     sketch = replace(sketch, dial=share, dialled=answer, held=DIAL, base=base, earlier=earlier, coming=coming)
-    return replace(state, sketch=sketch, glide=None)
+    return replace(state.with_mode(sketch), glide=None)
 
 
 def dial_on(state: State, steps: int) -> State:
@@ -94,4 +94,4 @@ def dialled(state: State) -> State:
     share = round(sketch.dial * last) / last
     answer = answer_at(sketch.way, share)
     bare = replace(sketch, held=None, base=None, coming=None, dial=share, dialled=answer)
-    return exchanged(replace(state, sketch=bare), answer.scene(sketch.unit))
+    return exchanged(state.with_mode(bare), answer.scene(sketch.unit))

@@ -16,6 +16,7 @@ from linkanim.player.state import (
     Editing,
     Grasp,
     Held,
+    Sketch,
     State,
     check_of_turning,
     chosen,
@@ -89,7 +90,7 @@ def renewed(state: State, scene: Scene) -> State:
         kept = tuple(one._replace(place=one.place + by) for one in state.kept if one.place >= own)
         return put_on(replace(state, place=state.place + by, kept=kept), 0)
     editing = replace(with_undo(state.editing, state.scene), original=scene)
-    return exchanged(replace(state, held=None, glide=None, sketch=None, editing=editing), scene)
+    return exchanged(replace(state.without(Sketch), held=None, glide=None, editing=editing), scene)
 
 
 def exchanged(state: State, scene: Scene) -> State:
@@ -122,7 +123,7 @@ def put_on(state: State, place: int) -> State:
     scene = proved(was.scene if was else load(entry) if isinstance(entry, str) else entry, 0.0)
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
-    bare = replace(state.unlisted, held=None, sketch=None, glide=None, turned=None, faded=state.frame)
+    bare = replace(state.unlisted.without(Sketch), held=None, glide=None, turned=None, faded=state.frame)
     bare = replace(bare, arrived=state.frame)
     editing = replace(was.editing if was else Editing(), open=state.editing.open)
     others = tuple(one for one in kept if one is not was)

@@ -113,16 +113,14 @@ class Framing:
         """Return what has room of its own."""
         has_tools = self._window and state.editing.open and not (state.modes or state.game)
         row = state.sketch is not None and bool(state.sketch.answers)
-        head = bool(state.building or state.posing or state.constructed) or any(
-            one.has_head for one in state.modes
-        )
+        head = bool(state.building or state.constructed) or any(one.has_head for one in state.modes)
         return Docked(2 if has_tools else int(state.listed), row, self._window, head and not state.listed)
 
     def _look(self, state: State) -> Look:
         """Return the look of a state."""
         for mode in state.modes:
             state = replace(state, look=mode.look(state.look))
-        drawn = state.building or state.posing or state.constructed
+        drawn = state.building or state.constructed
         look = replace(state.look, hud=False) if drawn else state.look
         return replace(look, centres=0) if state.constructed else look
 

@@ -163,8 +163,6 @@ _RECORD = (
 )
 _BUILD = on("f2", "build") + on("shift+f2", "build_on")
 _DIAL = both(",", ".", "dial_on")
-_POSED = on("return kp_enter", "enter")
-_KEPT = on("ctrl+return ctrl+kp_enter", "keep")
 _STEPS = both("shift+f7", "f7", "construct", held=False)
 _MAKE = on("f6", "layers") + on("shift+f6", "make")
 _PATH = on("w", "pencil") + on("shift+w", "own_trace")
@@ -292,31 +290,6 @@ _IN_A_MODE: Table = {
         KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
         KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
     ),
-    "in W": (
-        KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
-        KeyRow("1–9, click", "take another answer", digits("answer")),
-        KeyRow(", .", "the dial: more exact, more compact", both(",", ".", "dial_on")),
-        KeyRow(
-            "F, click",
-            "take a cognate: the faint linkage, which traces the same curve",
-            on("f", "cognate", 0),
-        ),
-        KeyRow("Ctrl+Z", "undo the last stroke or drag", on("ctrl+z", "take_back", held=True)),
-        KeyRow("Enter", "keep the linkage as the scene; Esc goes back", enter("keep")),
-    ),
-    "in F4": (
-        KeyRow("press, drag", "set down a frame; drag it, or turn it by its axis"),
-        KeyRow("drag a pivot, a joint", "move it; of four poses it slides along its curve"),
-        KeyRow("P", "set pins, or frames again", on("p", "pinning")),
-        KeyRow("S", "linkages with a slider, or four-bars", on("s", "sliding")),
-        KeyRow("B", "poles, Burmester's curves and points", on("b", "theory")),
-        KeyRow(", .", "the dial: smaller links, a larger transmission angle", _DIAL),
-        KeyRow("1–9, click", "take another answer", digits("answer")),
-        KeyRow("arrows (Shift: fine), Enter", "move a cursor; press and release there", aims() + _POSED),
-        KeyRow("Tab, Del", "choose a frame or pin; remove it", tabs("further") + on("delete", "remove")),
-        KeyRow("Ctrl+Z", "undo the last change", on("ctrl+z", "take_back", held=True)),
-        KeyRow("Enter, Ctrl+Enter", "keep the linkage as the scene; Esc goes back", _KEPT),
-    ),
     "in a game": (
         KeyRow("1–9, click", "choose an answer or a door", digits("option")),
         KeyRow("Enter, Space", "go on", on("return kp_enter space", "next")),
@@ -409,13 +382,15 @@ class TypedKeys(NamedTuple):
 class ModeKeys:
     """The keys of a mode by subject, which take precedence over their usual meaning; how print is typed.
 
-    While a mode is on that is `alone`, of one line or dialog, no other keys mean anything.
+    While a mode is on that is `alone`, of one line or dialog, no other keys mean anything. Some commands have
+    other `names` in it.
     """
 
     name: str
     table: Table = field(default_factory=dict)
     typed: TypedKeys | None = None
     alone: bool = False
+    names: Mapping[Action, str] = field(default_factory=dict)
 
     @property
     def binds(self) -> Iterator[Bind]:
@@ -440,10 +415,13 @@ OF_MODES: tuple[ModeKeys, ...] = (
     ModeKeys("paused", typed=_ANGLE),
     _in("edit", "in E", _VALUE),
     ModeKeys("numbers", _LIST_OF_SHEET, _VALUE),
-    _in("pencil", "in W"),
-    _in("poses", "in F4"),
-    _in("game", "in a game"),
-    _in("build", "in F2", TypedKeys("digits", begins="123456789.-")),
+    ModeKeys("game", {"in a game": _IN_A_MODE["in a game"]}, names={Action("back"): "out of it"}),
+    ModeKeys(
+        "build",
+        {"in F2": _IN_A_MODE["in F2"]},
+        TypedKeys("digits", begins="123456789.-"),
+        names={Action("build"): "done: leave the sheet and keep the linkage"},
+    ),
 )
 
 
@@ -627,17 +605,6 @@ _APART: Mapping[Action, str] = {
     **{Action("option", n): f"answer or door {n + 1}" for n in range(9)},
 }
 """The names of commands that share a row of the table."""
-_IN_ONE_MODE: Mapping[tuple[str, Action], str] = {
-    ("game", Action("back")): "out of it",
-    ("build", Action("build")): "done: leave the sheet and keep the linkage",
-    ("pencil", Action("dial_on", -1)): "the dial: more exact",
-    ("pencil", Action("dial_on", 1)): "the dial: more compact",
-    ("poses", Action("dial_on", -1)): "the dial: smaller links",
-    ("poses", Action("dial_on", 1)): "the dial: a larger transmission angle",
-    ("poses", Action("further", -1)): "the frame or pin before",
-    ("poses", Action("further", 1)): "the next frame or pin",
-}
-"""Other names of commands in particular modes."""
 
 
 class CommandGroup(NamedTuple):
@@ -690,7 +657,7 @@ def commands(mode: ModeKeys) -> tuple[tuple[str, str, Action], ...]:
             if bind.action.name not in _NEEDS_KEYS:
                 below = bind.key in above or (n > 0 and _types(bind.key, mode))
                 key = "" if below else _as_written(bind.key)
-                apart = _IN_ONE_MODE.get((mode.name, bind.action), _APART.get(bind.action, one.words))
+                apart = mode.names.get(bind.action, _APART.get(bind.action, one.words))
                 words, known, _ = found.get(bind.action, (apart, "", bind.action))
                 found[bind.action] = (words, known or key, bind.action)
         above |= {bind.key for row in rows for bind in row.binds}

@@ -268,7 +268,7 @@ class Layering(Mode):
         """Return the look of the picture: bare, at the same zoom and pan."""
         return Look(theme=look.theme, hud=False, zoom=look.zoom, pan=look.pan)
 
-    def before(self, state: State, action: Action) -> State:
+    def ready_for(self, state: State, action: Action) -> State:
         """Close the layers for an action on the linkage itself."""
         return closed(state) if action.name in _CLOSE else state
 

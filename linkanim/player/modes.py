@@ -9,11 +9,13 @@ from linkanim.player.keys import KEYS, OF_MODES, PAD_KEYS, ModeKeys
 from linkanim.player.listing import Listing
 from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
+from linkanim.player.pencil import Pencil
+from linkanim.player.posing import Posing
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import Mode, Resolver
 from linkanim.player.taking import TakeDialog
 
-MODES: tuple[type[Mode], ...] = (Listing, Finder, OpenShelf, Layering, Naming, TakeDialog)
+MODES: tuple[type[Mode], ...] = (Listing, Finder, OpenShelf, Pencil, Posing, Layering, Naming, TakeDialog)
 """The modes that can be open over the picture."""
 KEYS_OF: Mapping[str, ModeKeys] = {one.name: one for one in (*OF_MODES, *(mode.keys for mode in MODES))}
 """The keys of each mode, by its name."""

@@ -1,19 +1,67 @@
-"""Actions of the pencil: a stroke is drawn, answers come, points of the stroke and pivots are dragged."""
+"""A mode: the pencil draws a stroke, linkages that follow it come, its points and fixed pins are dragged."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from math import degrees, hypot
+from typing import TYPE_CHECKING, ClassVar
 
+from linkanim.build.places import from_span
 from linkanim.errors import BadInput
-from linkanim.player.dial import dialled
+from linkanim.frozen import frozen
+from linkanim.picture.overlay import AnswerRow, DialShown, Overlay, PathShown
+from linkanim.player import rules
+from linkanim.player.action import Action
+from linkanim.player.dial import dial as turn_dial
+from linkanim.player.dial import dial_on, dialled, place_of
 from linkanim.player.edits import drop, exchanged
-from linkanim.player.sketching import left, released, sketching, taken
-from linkanim.player.state import DIAL, PIVOTS, PathSketch, State, nothing_begun, with_effect, with_toast
+from linkanim.player.keys import (
+    BACK_BAR,
+    HOME_BAR,
+    LAST_BAR,
+    MOVING_BAR,
+    BarEntry,
+    KeyRow,
+    ModeKeys,
+    both,
+    digits,
+    enter,
+    on,
+)
+from linkanim.player.sketching import (
+    REFUSED,
+    before,
+    choose,
+    come,
+    follow,
+    keep,
+    left,
+    released,
+    row_of,
+    sketching,
+    take_back,
+    taken,
+)
+from linkanim.player.state import (
+    DIAL,
+    NEAR_HAND,
+    PIVOTS,
+    REACH,
+    PathSketch,
+    Rule,
+    State,
+    nothing_begun,
+    with_effect,
+    with_toast,
+)
 from linkanim.scenes.scene import Scene
+from linkanim.units import significant
 
 if TYPE_CHECKING:
+    from linkanim.player.devices import Drag, Gesture, Mouse
+    from linkanim.player.screen import Screen
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
 
@@ -29,8 +77,8 @@ def pencil(state: State, _: None) -> State:
         return left(state)
     state = drop(left(state), None)
     editing = replace(state.editing, open=False)
-    sketch = PathSketch(state.scene, state.clock, nothing_begun(editing), state.displayed.length_unit)
-    state = replace(state.unlisted, sketch=sketch, editing=editing, glide=None)
+    sketch = Pencil(state.scene, state.clock, nothing_begun(editing), state.displayed.length_unit)
+    state = replace(state.unlisted.with_mode(sketch), editing=editing, glide=None)
     return with_effect(replace(state, toast=None, faded=state.frame), "pencil")
 
 
@@ -98,10 +146,10 @@ def _searched(state: State, curve: DrawnCurve) -> State:
     earlier = replace(state.drawing, pen=())
     bare = replace(earlier.undialled, answers=(), chosen=0, names=(), way=(), pivots=(), earlier=earlier)
     sketch = replace(bare, curve=curve, strokes=bare.strokes + 1)
-    return with_effect(replace(state, sketch=sketch, toast=None), "search")
+    return with_effect(replace(state.with_mode(sketch), toast=None), "search")
 
 
-def answers(state: State, numbers: tuple[float, ...]) -> State:
+def answers_(state: State, numbers: tuple[float, ...]) -> State:
     """Take all answers from an older tape, which has no sizes and angles for them."""
     from linkanim.synthesis.answers import EARLIER
 
@@ -128,7 +176,7 @@ def cards(state: State, numbers: tuple[float, ...]) -> State:
     return sketching(after, names=(*own * ("",), *names_of([one.figures for one in kept])))
 
 
-def way(state: State, numbers: tuple[float, ...]) -> State:
+def way_(state: State, numbers: tuple[float, ...]) -> State:
     """Take the answers along the front, from the exact end to the compact one: 0, and the numbers of each."""
     from linkanim.synthesis.answers import NUMBERS
 
@@ -166,7 +214,7 @@ def _held(state: State, sketch: PathSketch, held: int | str) -> State:
         answers = (*sketch.answers[: sketch.chosen], sketch.dialled, *sketch.answers[sketch.chosen + 1 :])
         found = replace(found, answers=answers)
     found = replace(found, way=(), names=(), picked=False, held=held, base=state.scene, earlier=sketch)
-    return replace(state, glide=None, sketch=found)
+    return replace(state.with_mode(found), glide=None)
 
 
 def lead(state: State, to: tuple[float, float]) -> State:
@@ -205,7 +253,7 @@ def cognate(state: State, place: int) -> State:
     names = names_of(figures) if len(figures) == len(answers) == len(sketch.names) else ()
     taken = replace(sketch.undialled, answers=answers, names=names, picked=True, earlier=sketch)
     state = replace(exchanged(state, taken.scene_of(found[place])), glide=None, faded=state.frame)
-    return replace(state, sketch=taken)
+    return state.with_mode(taken)
 
 
 def let_go(state: State, _: None) -> State:
@@ -216,3 +264,182 @@ def let_go(state: State, _: None) -> State:
     if sketch.held == DIAL:
         return dialled(state)
     return released(state)
+
+
+# What is shown of a stroke and its answers.
+
+
+def _figures(answer: PathAnswer) -> str:
+    """Return an answer's deviation, and where they are known its size and least transmission angle."""
+    if not answer.size:
+        return _percent(answer.off)
+    return f"{_percent(answer.off)} · ×{significant(answer.size, 2)} · {round(degrees(answer.angle))}°"
+
+
+def _percent(share: float) -> str:
+    """Return a share in percent, to two digits; below a hundred thousandth it is 0."""
+    return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
+
+
+def _off(sketch: PathSketch) -> str | None:
+    """Say how far the shown answer deviates, and its other figures."""
+    answer = sketch.answer
+    if answer is None or sketch.off is None:
+        return None
+    if isinstance(answer, Scene) or not answer.size:
+        return f"{_percent(sketch.off)} off"
+    return _figures(answer).replace("%", "% off", 1)
+
+
+def cognate_at(screen: Screen, x: float, y: float, reach: float) -> int | None:
+    """Return the place of the cognate under a pixel among those that are drawn; None elsewhere."""
+    numbers = screen.over.path.cognates if screen.over.path else ()
+    if not numbers:
+        return None
+    from linkanim.picture.cognates import cognate_sides
+
+    pose, at = screen.state.displayed.pose(screen.state.phase, 0), complex(*screen.world(x, y))
+    reach *= abs(complex(*screen.world(1.0, 0.0)) - complex(*screen.world(0.0, 0.0)))
+    for place, number in enumerate(numbers):
+        sides = cognate_sides(pose, number)
+        if any(abs(from_span(begin, end, at)) <= reach for begin, end in sides):
+            return place
+    return None
+
+
+_DRAGS: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
+"""The kind of drag that follows, by the action that the pencil has begun."""
+
+
+@frozen
+class Pencil(PathSketch):
+    """The pencil, and what it has drawn."""
+
+    keys = ModeKeys(
+        "pencil",
+        {
+            "in W": (
+                KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
+                KeyRow("1–9, click", "take another answer", digits("answer")),
+                KeyRow(", .", "the dial: more exact, more compact", both(",", ".", "dial_on")),
+                KeyRow(
+                    "F, click",
+                    "take a cognate: the faint linkage, which traces the same curve",
+                    on("f", "cognate", 0),
+                ),
+                KeyRow("Ctrl+Z", "undo the last stroke or drag", on("ctrl+z", "take_back", held=True)),
+                KeyRow("Enter", "keep the linkage as the scene; Esc goes back", enter("keep")),
+            )
+        },
+        names={
+            Action("dial_on", -1): "the dial: more exact",
+            Action("dial_on", 1): "the dial: more compact",
+        },
+    )
+    bar = (
+        *(BACK_BAR, HOME_BAR, *MOVING_BAR, BarEntry("again", Action("take_back"), 3, leads=True)),
+        *(BarEntry("done", Action("keep"), 1), *LAST_BAR),
+    )
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "pencil": Rule(rules.nothing, pencil),
+        "own_trace": Rule(rules.nothing, own),
+        "pen_down": Rule(rules.numbers(2), down),  # (x, y) in the scene's unit
+        "pen_to": Rule(rules.numbers(2), along),
+        "pen_up": Rule(rules.nothing, up),
+        "pen_off": Rule(rules.nothing, off),
+        "stroke": Rule(rules.pairs, stroke),  # 1 closed, 0 open; x, y of each point
+        "follow": Rule(rules.answer, follow),  # an answer's numbers
+        "answers": Rule(rules.answers, answers_),  # on older tapes: as "cards", without sizes and angles
+        "cards": Rule(rules.cards, cards),  # which one is shown; the numbers of each
+        "way": Rule(rules.cards, way_),  # 0; the numbers of each answer along the front
+        "dial": Rule(rules.share, turn_dial),  # from 0 to 1, the most compact
+        "dial_on": Rule(rules.whole, dial_on),  # so many steps further
+        "answer": Rule(rules.whole, choose),  # its place in the row
+        "cognate": Rule(rules.whole, cognate),  # its place among those that turn fully, from 0
+        "take_point": Rule(rules.whole, take_point),  # its place on the stroke
+        "take_pivot": Rule(rules.text, take_pivot),
+        "lead": Rule(rules.numbers(2), lead),  # to (x, y) in the scene's unit
+        "let_go": Rule(rules.nothing, let_go),
+        "keep": Rule(rules.nothing, keep),
+        "take_back": Rule(rules.nothing, take_back),
+    }
+    refuses = REFUSED
+    pointer = "pencil"
+
+    @property
+    def is_paper(self) -> bool:
+        """Whether there is nothing but the paper yet."""
+        return self.is_blank
+
+    def ready_for(self, state: State, action: Action) -> State:
+        """Keep the answer, or leave it, for an action on a scene."""
+        return before(state, action)
+
+    def aged(self, state: State) -> State:
+        """Show the linkage that was worked out for this frame."""
+        return come(state)
+
+    def closed(self, state: State) -> State:
+        """Put the pencil down, and go back to the scene from before."""
+        return left(state)
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the stroke, its cognates, and the row of answers with their figures."""
+        held = self.held if isinstance(self.held, int) else None
+        searched = "searching" if self.curve and not self.pen else None
+        pins = tuple(place for _, place in self.pivots)
+        numbers = tuple(n for n, one in enumerate(self.cognates) if one)
+        words = searched if self.is_blank else _off(self)
+        path = PathShown(self.curve, self.pen, self.is_blank, words, held, pins, cognates=numbers)
+        return replace(over, path=path, row=None if self.is_blank else self._row(state))
+
+    def _row(self, state: State) -> AnswerRow:
+        """Return the row of answers; while something is dragged, with the pictures from before."""
+        words = tuple("its own" if isinstance(one, Scene) else _figures(one) for one in self.answers)
+        names = self.names if len(self.names) == len(words) else tuple("" for _ in words)
+        dial = None
+        if len(self.way) > 1:
+            marks = tuple(n / (len(self.way) - 1) for n, one in enumerate(self.way) if one in self.answers)
+            dial = DialShown(place_of(self), "exact", "compact", marks, self.held == DIAL)
+        chosen = self.chosen if self.dialled is None else -1
+        return replace(row_of(state, self, words), names=names, chosen=chosen, dial=dial)
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Draw, or drag what is under the pencil; None where the mouse acts as without a pencil."""
+        reach = REACH * screen.size[1]
+        if gesture.kind == "down" and screen.charted(*mouse.at) is None:
+            begun = self.begun(screen, *mouse.at, reach)
+            mouse.under = cognate_at(screen, *mouse.at, NEAR_HAND * screen.size[1])
+            mouse.drag = _DRAGS.get(begun.name)
+            return (begun,)
+        if mouse.drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
+            return None
+        if gesture.kind == "move" and mouse.drag == "dial":
+            return (Action("dial", screen.dialled(mouse.at[0])),)
+        if gesture.kind == "move":
+            return (Action("pen_to" if mouse.drag == "pen" else "lead", screen.world(*mouse.at)),)
+        drag, mouse.drag = mouse.drag, None
+        if drag != "pen":
+            return (Action("let_go"),)
+        if mouse.far > reach:
+            return (Action("pen_up"),)
+        taken = () if mouse.under is None else (Action("cognate", mouse.under),)
+        return (Action("pen_off"), *taken)
+
+    def begun(self, screen: Screen, x: float, y: float, reach: float) -> Action:
+        """Return the action that the pencil begins at a pixel: it takes an answer, pin or point, or draws."""
+        place = screen.answer_at(x, y)
+        if place is not None:
+            return Action("answer", place)
+        if screen.on_dial(x, y):
+            return Action("dial", screen.dialled(x))
+        pose = screen.state.displayed.pose(screen.state.phase, 0)
+        pivots = [name for name in PIVOTS if name in pose.position] if self.follows else []
+        for pivot in pivots:
+            if max(map(abs, screen.away(pose.position[pivot], x, y))) <= reach:
+                return Action("take_pivot", pivot)
+        points = self.curve.points if self.curve and not self.is_blank else ()
+        away = [hypot(*screen.away((point.real, point.imag), x, y)) for point in points]
+        if away and min(away) <= reach:
+            return Action("take_point", away.index(min(away)))
+        return Action("pen_down", screen.world(x, y))

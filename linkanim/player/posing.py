@@ -1,23 +1,60 @@
-"""Actions on poses: frames and pins are set down, dragged and turned; linkages that pass the poses follow."""
+"""A mode: poses of a body are set down, dragged and turned, and linkages that pass them follow."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import cmath
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from math import atan2, cos, dist, hypot, pi, radians, remainder, sin, tau
+from math import atan2, cos, degrees, dist, hypot, pi, radians, remainder, sin, tau
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from linkanim.build.places import as_point
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
-from linkanim.picture.overlay import AXIS
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import AXIS, AnswerRow, DialShown, Overlay, PosesShown
+from linkanim.player import rules
+from linkanim.player.action import Action, Value
 from linkanim.player.edits import drop
-from linkanim.player.sketching import left, released, sketching, taken
+from linkanim.player.keys import (
+    BACK_BAR,
+    HOME_BAR,
+    LAST_BAR,
+    MOVING_BAR,
+    BarEntry,
+    KeyRow,
+    ModeKeys,
+    aims,
+    both,
+    digits,
+    enter,
+    on,
+    tabs,
+)
+from linkanim.player.sketching import (
+    REFUSED,
+    before,
+    choose,
+    come,
+    follow,
+    keep,
+    left,
+    released,
+    row_of,
+    sketching,
+    take_back,
+    taken,
+)
 from linkanim.player.state import (
     LARGEST_DIAL,
     PIVOTS,
     PoseGrip,
     PoseSketch,
+    Resolver,
+    Rule,
     SetPose,
     State,
     nothing_begun,
@@ -25,6 +62,12 @@ from linkanim.player.state import (
     with_toast,
 )
 from linkanim.scenes.scene import PosesPurpose
+from linkanim.units import short, three_digits
+
+if TYPE_CHECKING:
+    from linkanim.player.devices import Gesture, Mouse, Outside
+    from linkanim.player.screen import Screen
+    from linkanim.synthesis.guidance import PoseAnswer
 
 # The theory is imported when a pose is set: the first frame does not wait for it.
 
@@ -35,16 +78,16 @@ _WHOLE = radians(1)
 _NO_CHOICE = "five poses leave no choice of pivots: Burmester's points are where they are"
 
 
-def poses(state: State, _: None) -> State:
+def poses_(state: State, _: None) -> State:
     """Begin with poses: those that the scene was made for, or none yet; or go back to the earlier scene."""
     if state.posing:
         return left(state)
     state = drop(left(state), None)
     editing, shown = replace(state.editing, open=False), state.displayed
-    sketch = PoseSketch(state.scene, state.clock, nothing_begun(editing), shown.length_unit)
+    sketch = Posing(state.scene, state.clock, nothing_begun(editing), shown.length_unit)
     if isinstance(shown.purpose, PosesPurpose):
         sketch = replace(sketch, poses=tuple(SetPose(*row) for row in shown.purpose.poses))
-    state = replace(state.unlisted, sketch=sketch, editing=editing, glide=None)
+    state = replace(state.unlisted.with_mode(sketch), editing=editing, glide=None)
     state = with_effect(replace(state, toast=None, faded=state.frame), "poses")
     return with_effect(state, "search") if sketch.is_asked else state
 
@@ -155,7 +198,7 @@ def _set_down(state: State, sketch: PoseSketch, at: Point, off: Point) -> State:
         base=state.scene,
         earlier=sketch,
     )
-    return replace(state, glide=None, sketch=_settled(set_down))
+    return replace(state.with_mode(_settled(set_down)), glide=None)
 
 
 def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
@@ -201,8 +244,8 @@ def _led(state: State, sketch: PoseSketch) -> State:
     """Return the state with what the hand has dragged, and ask for the answer that follows."""
     sketch = _settled(sketch)
     if not sketch.is_asked:
-        return replace(state, sketch=sketch)
-    return with_effect(replace(state, sketch=sketch), "follow" if sketch.answers else "search")
+        return state.with_mode(sketch)
+    return with_effect(state.with_mode(sketch), "follow" if sketch.answers else "search")
 
 
 def up(state: State, _: None) -> State:
@@ -214,7 +257,7 @@ def up(state: State, _: None) -> State:
     same = before and (sketch.poses, sketch.pins) == (before.poses, before.pins)
     if before and same and (sketch.held.what != "joint" or sketch.held.at is None):
         kept = replace(before, taken=sketch.taken, cursor=sketch.cursor)
-        return replace(state, sketch=replace(kept, strokes=sketch.strokes))
+        return state.with_mode(replace(kept, strokes=sketch.strokes))
     state = released(sketching(state, strokes=sketch.strokes + 1, refusal=""))
     if not sketch.is_asked:
         return replace(state, effects=())
@@ -229,10 +272,10 @@ def off(state: State) -> State:
         return state
     back = replace(sketch.earlier, strokes=sketch.strokes + 1, cursor=sketch.cursor)
     scene = sketch.base or state.scene
-    return replace(state, sketch=back, scene=scene if sketch.answers else state.scene)
+    return replace(state.with_mode(back), scene=scene if sketch.answers else state.scene)
 
 
-def cursor(state: State, at: Point) -> State:
+def cursor_(state: State, at: Point) -> State:
     """Move the keys' cursor to a point; the thing held by keys follows."""
     state = along(state, (*at, 0.0, 1e-9)) if state.posing and state.posing.held else state
     return sketching(state, cursor=at) if state.posing else state
@@ -266,12 +309,12 @@ def remove(state: State, _: None) -> State:
     return _changed(state, bare, "search")
 
 
-def pinning(state: State, _: None) -> State:
+def pinning_(state: State, _: None) -> State:
     """Let the hand set pins, or poses again."""
     return sketching(state, pinning=not state.posing.pinning) if state.posing else state
 
 
-def sliding(state: State, _: None) -> State:
+def sliding_(state: State, _: None) -> State:
     """Ask for linkages that end on a slider, or for four-bars again."""
     sketch = state.posing
     if sketch is None or sketch.held:
@@ -280,12 +323,12 @@ def sliding(state: State, _: None) -> State:
     return _changed(state, replace(sketch, sliding=not sketch.sliding, pins=pins, earlier=sketch), "anew")
 
 
-def curves(state: State, _: None) -> State:
+def curves_(state: State, _: None) -> State:
     """Show or hide the poses' poles and Burmester's curves and points."""
     return sketching(state, curves=not state.posing.curves) if state.posing else state
 
 
-def dial(state: State, share: float) -> State:
+def dial_(state: State, share: float) -> State:
     """Turn the dial to a share of its range, 0 for small linkages to 1 for a large transmission angle."""
     sketch = state.posing
     if sketch is None or sketch.held:
@@ -297,7 +340,7 @@ def dial(state: State, share: float) -> State:
 def dial_on(state: State, by: int) -> State:
     """Turn the dial by a number of steps towards a large transmission angle."""
     sketch = state.posing
-    return dial(state, (sketch.dial + by + LARGEST_DIAL) / (2 * LARGEST_DIAL)) if sketch else state
+    return dial_(state, (sketch.dial + by + LARGEST_DIAL) / (2 * LARGEST_DIAL)) if sketch else state
 
 
 def cards(state: State, numbers: tuple[float, ...]) -> State:
@@ -336,8 +379,8 @@ def _changed(state: State, sketch: PoseSketch, effect: str) -> State:
     """Return the state with another sketch, for which linkages are asked; for too few poses, none."""
     sketch = _settled(replace(sketch, strokes=sketch.strokes + 1, refusal=""))
     if not sketch.is_asked:
-        return replace(state, sketch=replace(sketch, answers=(), chosen=0), glide=None)
-    return with_effect(replace(state, sketch=sketch, toast=None), effect)
+        return replace(state.with_mode(replace(sketch, answers=(), chosen=0)), glide=None)
+    return with_effect(replace(state.with_mode(sketch), toast=None), effect)
 
 
 def _settled(sketch: PoseSketch) -> PoseSketch:
@@ -364,3 +407,214 @@ def _stepped(value: float, step: float) -> float:
 def _whole(angle: float) -> float:
     """Return an angle in whole degrees, from -pi to pi."""
     return remainder(round(angle / _WHOLE) * _WHOLE, tau) if abs(angle) < pi else angle
+
+
+# What is shown of poses.
+
+_FREE = {
+    2: "pivots and joints are free: drag them",
+    3: "a pivot or its joint is free: drag them",
+    4: "pivots and joints slide along Burmester's curves (B)",
+    5: "nothing is free: Burmester's points (B)",
+}
+"""The linkages that can be found, by the number of poses."""
+
+
+def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ...]]:
+    """Return words on what is missing, on why there is no linkage, or on the shown one."""
+    kind, count = "slider-crank" if sketch.sliding else "four-bar", len(sketch.poses)
+    sets = ("pins",) if sketch.pinning else ()
+    if sketch.refusal:
+        return sketch.refusal, sets
+    if not sketch.is_asked:
+        begun = "one pose; set down another" if count else "set down two to five poses: press and drag"
+        return begun, (f"a {kind} is to pass them", *sets)
+    answer = sketch.answer
+    if answer is None:
+        return f"{count} poses: looking for a {kind}", sets
+    angle = f"{degrees(answer.transmission):.0f}°"
+    lacks = ", ".join(answer.named_defects)
+    facts = f"longest link {short(answer.size)} {sketch.unit}, transmission angle {angle}"
+    lacking = f"defects: {lacks}" if lacks else "passes them in order on one branch"
+    found = f"{state.scene.info.class_name} through {count} poses"
+    return found[:1].upper() + found[1:], (facts, lacking, _FREE[count], *sets)
+
+
+def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
+    """Return an answer's longest link and transmission angle, or its first defect."""
+    lacks = answer.named_defects
+    words = lacks[0] if lacks else f"{degrees(answer.transmission):.0f}°"
+    return f"{three_digits(answer.size)} {sketch.unit} · {words}"
+
+
+def _aim(window: Outside, way: Value) -> Iterator[Action]:
+    """Yield what an arrow means: the cursor moves."""
+    sketch = window.state.posing
+    if sketch and isinstance(way, tuple):
+        yield Action("cursor", window.screen.aimed(sketch.cursor, way))
+
+
+def _enter(window: Outside, _: Value) -> Iterator[Action]:
+    """Yield what Enter means: the hand goes down or up, or the linkage is kept."""
+    sketch = window.state.posing
+    if sketch and sketch.held:
+        yield Action("hand_up")
+    elif sketch and sketch.cursor is None:
+        yield Action("keep")
+    elif sketch and sketch.cursor:
+        yield Action("hand_down", window.screen.handed(*window.screen.pixel(*sketch.cursor), 1.0))
+
+
+@frozen
+class Posing(PoseSketch):
+    """The poses that are set down."""
+
+    keys = ModeKeys(
+        "poses",
+        {
+            "in F4": (
+                KeyRow("press, drag", "set down a frame; drag it, or turn it by its axis"),
+                KeyRow("drag a pivot, a joint", "move it; of four poses it slides along its curve"),
+                KeyRow("P", "set pins, or frames again", on("p", "pinning")),
+                KeyRow("S", "linkages with a slider, or four-bars", on("s", "sliding")),
+                KeyRow("B", "poles, Burmester's curves and points", on("b", "theory")),
+                KeyRow(
+                    ", .",
+                    "the dial: smaller links, a larger transmission angle",
+                    both(",", ".", "dial_on"),
+                ),
+                KeyRow("1–9, click", "take another answer", digits("answer")),
+                KeyRow(
+                    "arrows (Shift: fine), Enter",
+                    "move a cursor; press and release there",
+                    aims() + enter("enter"),
+                ),
+                KeyRow(
+                    "Tab, Del", "choose a frame or pin; remove it", tabs("further") + on("delete", "remove")
+                ),
+                KeyRow("Ctrl+Z", "undo the last change", on("ctrl+z", "take_back", held=True)),
+                KeyRow(
+                    "Enter, Ctrl+Enter",
+                    "keep the linkage as the scene; Esc goes back",
+                    on("ctrl+return ctrl+kp_enter", "keep"),
+                ),
+            )
+        },
+        names={
+            Action("dial_on", -1): "the dial: smaller links",
+            Action("dial_on", 1): "the dial: a larger transmission angle",
+            Action("further", -1): "the frame or pin before",
+            Action("further", 1): "the next frame or pin",
+        },
+    )
+    bar = (
+        *(BACK_BAR, HOME_BAR, *MOVING_BAR, BarEntry("again", Action("take_back"), 3, leads=True)),
+        *(BarEntry("construction", Action("theory"), 4), BarEntry("done", Action("keep"), 1), *LAST_BAR),
+    )
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "poses": Rule(rules.nothing, poses_),
+        "set_poses": Rule(rules.triples, put),  # 1 with a slider, else 0; x, y, angle (rad) of each
+        "set_pin": Rule(rules.place_of_sheet, pin),  # (x, y) in the scene's unit
+        "pinning": Rule(rules.nothing, pinning_),
+        "sliding": Rule(rules.nothing, sliding_),
+        "theory": Rule(rules.nothing, curves_),
+        "unmet": Rule(rules.text, unmet),  # why there is no linkage
+        "follow": Rule(rules.answer, follow),  # an answer's numbers
+        "cards": Rule(rules.cards, cards),  # which one is shown; the numbers of each
+        "dial": Rule(rules.share, dial_),  # from 0 to 1, the steepest
+        "dial_on": Rule(rules.whole, dial_on),  # so many steps further
+        "answer": Rule(rules.whole, choose),  # its place in the row
+        "keep": Rule(rules.nothing, keep),
+        "take_back": Rule(rules.nothing, take_back),
+        "hand_down": Rule(rules.hand, down),  # (x, y), how near counts as on it, the step of what is drawn
+        "hand_to": Rule(rules.hand, along),
+        "hand_up": Rule(rules.nothing, up),
+        "cursor": Rule(rules.place_of_sheet, cursor_),
+        "further": Rule(rules.whole, further),
+        "remove": Rule(rules.nothing, remove),
+    }
+    meanings: ClassVar[Mapping[str, Resolver]] = {"aim": _aim, "enter": _enter}
+    refuses = REFUSED
+    has_head = True
+
+    @property
+    def is_paper(self) -> bool:
+        """Whether there is nothing but the paper yet."""
+        return self.is_blank
+
+    def look(self, look: Look) -> Look:
+        """Return the look, without numbers."""
+        return replace(look, hud=False)
+
+    def ready_for(self, state: State, action: Action) -> State:
+        """Keep the answer, or leave it, for an action on a scene."""
+        return before(state, action)
+
+    def aged(self, state: State) -> State:
+        """Show the linkage that was worked out for this frame."""
+        return come(state)
+
+    def closed(self, state: State) -> State:
+        """Let go of what is held or chosen; else go back to the scene from before."""
+        return let_go(state) or left(state)
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the poses, the shown answer's coupler in each, and the row of answers."""
+        handles: tuple[Point, ...] = ()
+        bodies: list[tuple[Point, ...]] = []
+        if answer := self.answer:
+            joints, first = answer.joints, self.poses[0]
+            handles = tuple(free_joints(self).values())
+            origin = complex(first.x, first.y)
+            for pose in self.poses:
+                turn = cmath.rect(1.0, pose.angle - first.angle)
+                at = complex(pose.x, pose.y)
+                bodies.append(tuple(as_point(at + turn * (joints[name] - origin)) for name in "ABP"))
+        sentence, facts = _said_of_poses(state, self)
+        shown = PosesShown(
+            self.poses,
+            self.pins,
+            handles,
+            tuple(bodies),
+            self.taken,
+            self.cursor,
+            self.curves,
+            self.held is not None,
+            self.is_blank,
+            sentence,
+            facts,
+            bool(self.refusal),
+        )
+        return replace(over, poses=shown, row=None if self.is_blank else self._row(state))
+
+    def _row(self, state: State) -> AnswerRow:
+        """Return the row of answers below their dial, whose middle is marked."""
+        words = tuple(_sized(one, self) for one in self.answers)
+        poses = (self.earlier or self).poses if self.held else self.poses
+        share = (self.dial + LARGEST_DIAL) / (2 * LARGEST_DIAL)
+        dial = DialShown(share, "compact", "steep angle", (0.5,))
+        return replace(row_of(state, self, words), dial=dial, poses=poses)
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Take an answer, or set down and drag frames and pins; None where the mouse acts as usual."""
+        if gesture.kind == "down" and screen.charted(*mouse.at) is None:
+            place = screen.answer_at(*mouse.at)
+            if place is not None:
+                mouse.drag = None
+                return (Action("answer", place),)
+            if screen.on_dial(*mouse.at):
+                mouse.drag = "dial"
+                return (Action("dial", screen.dialled(mouse.at[0])),)
+            on_it = under(self, screen.world(*mouse.at), screen.near) is not None
+            mouse.drag = "hand" if on_it or has_room(self) else "pan"
+            mouse.draws = mouse.drag == "hand" and not on_it
+            return (mouse.handed("hand_down", screen),) if mouse.drag == "hand" else ()
+        if mouse.drag not in ("hand", "dial") or gesture.kind not in ("move", "up"):
+            return None
+        drag = mouse.drag
+        if gesture.kind == "move" and drag == "hand":
+            return (mouse.handed("hand_to", screen),)
+        if gesture.kind == "move":
+            return (Action("dial", screen.dialled(mouse.at[0])),)
+        mouse.drag = None
+        return (Action("hand_up"),) if drag == "hand" else ()

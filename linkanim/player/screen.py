@@ -20,7 +20,6 @@ import pygame
 
 from linkanim.build.draft import UNTITLED, Draft, Thing
 from linkanim.build.gestures import under
-from linkanim.build.places import from_span
 from linkanim.errors import NoDisplay
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
@@ -40,10 +39,8 @@ from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.framing import Drawer, Fade, Framing
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
-from linkanim.player.posing import has_room
-from linkanim.player.posing import under as posed_under
 from linkanim.player.shown import Hover
-from linkanim.player.state import PIVOTS, State, driven_bar
+from linkanim.player.state import State, driven_bar
 from linkanim.scenes.editing import handles
 
 # The display: a window on a real screen.
@@ -313,7 +310,7 @@ class Screen:
 
     def _point(self, state: State) -> None:
         """Show the mouse's pointer as a pencil while the pencil is taken."""
-        pointer = (state.look.theme, self.size) if state.mode == "pencil" else None
+        pointer = (state.look.theme, self.size) if state.top and state.top.pointer else None
         if pointer != self._pointer:
             self._pointer = pointer
             drawn = pencil(layout(self.size), theme_of(state.look.theme)) if pointer else None
@@ -347,7 +344,7 @@ class Screen:
         """
         last, state = self._framing.last, self.state
         is_paper = any(one.is_paper for one in state.modes)
-        if not (is_paper or state.building or (state.sketch and state.sketch.is_blank)):
+        if not (is_paper or state.building):
             box, view = last.figure.box, last.view
             (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
             x, y = min(max(x, left), right), min(max(y, top), low)
@@ -369,7 +366,7 @@ class Screen:
         if not (state.editing.open or free or leads):
             return None
         places = scene.pose(self.state.phase, 0).position.items()
-        away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
+        away = {name: max(map(abs, self.away(place, x, y))) for name, place in places}
         near = sorted((far, name) for name, far in away.items() if far <= reach)
 
         def can_be_dragged(name: str) -> bool:
@@ -379,7 +376,8 @@ class Screen:
 
         return next((name for _, name in near if can_be_dragged(name)), None)
 
-    def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
+    def away(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
+        """Return how far a place of the scene is from a pixel, right and down."""
         px, py = self.pixel(*place)
         return px - x, py - y
 
@@ -391,51 +389,6 @@ class Screen:
     def answer_at(self, x: float, y: float) -> int | None:
         """Return the number of the answer whose picture is under a pixel; None elsewhere."""
         return next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
-
-    def posed_at(self, x: float, y: float) -> bool:
-        """Return whether, with poses, the hand would grasp or set down something at a pixel."""
-        sketch = self.state.posing
-        return sketch is not None and (has_room(sketch) or self.on_pose(x, y))
-
-    def on_pose(self, x: float, y: float) -> bool:
-        """Return whether, with poses, something that was set down is at a pixel."""
-        sketch = self.state.posing
-        return sketch is not None and posed_under(sketch, self.world(x, y), self._near) is not None
-
-    def pencil_at(self, x: float, y: float, reach: float) -> Action:
-        """Return the action that the pencil begins at a pixel: it takes an answer, pin or point, or draws."""
-        sketch = self.state.drawing
-        assert sketch
-        place = self.answer_at(x, y)
-        if place is not None:
-            return Action("answer", place)
-        if self.on_dial(x, y):
-            return Action("dial", self.dialled(x))
-        pose = self.state.displayed.pose(self.state.phase, 0)
-        pivots = [name for name in PIVOTS if name in pose.position] if sketch.follows else []
-        for pivot in pivots:
-            if max(map(abs, self._from(pose.position[pivot], x, y))) <= reach:
-                return Action("take_pivot", pivot)
-        points = sketch.curve.points if sketch.curve and not sketch.is_blank else ()
-        away = [hypot(*self._from((point.real, point.imag), x, y)) for point in points]
-        if away and min(away) <= reach:
-            return Action("take_point", away.index(min(away)))
-        return Action("pen_down", self.world(x, y))
-
-    def cognate_at(self, x: float, y: float, reach: float) -> int | None:
-        """Return the place of the cognate under a pixel among those that are drawn; None elsewhere."""
-        numbers = self.over.path.cognates if self.over.path else ()
-        if not numbers:
-            return None
-        from linkanim.picture.cognates import cognate_sides
-
-        pose, at = self.state.displayed.pose(self.state.phase, 0), complex(*self.world(x, y))
-        reach /= self._framing.last.view.scale
-        for place, number in enumerate(numbers):
-            sides = cognate_sides(pose, number)
-            if any(abs(from_span(begin, end, at)) <= reach for begin, end in sides):
-                return place
-        return None
 
     def on_dial(self, x: float, y: float) -> bool:
         """Return whether a pixel is on the dial above the answers."""
@@ -464,9 +417,9 @@ class Screen:
         sheet = self.state.building
         assert sheet
         seen, place = sheet.seen(self.state.scene, self.state.phase), self.world(x, y)
-        if not self.state.clock.paused and (thing := under(sheet.building.draft, *place, self._near)):
+        if not self.state.clock.paused and (thing := under(sheet.building.draft, *place, self.near)):
             return thing, sheet.building.draft
-        return under(seen, *place, self._near), seen
+        return under(seen, *place, self.near), seen
 
     def on_sheet(self, x: float, y: float) -> bool:
         """Return whether a click at a pixel of the sheet chooses something, and draws nothing."""
@@ -474,7 +427,7 @@ class Screen:
         return bool(sheet and sheet.tool in ("bar", "move") and self._under(x, y)[0])
 
     @property
-    def _near(self) -> float:
+    def near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""
         return NEAR * self.size[1] / self._framing.last.view.scale
 
@@ -531,11 +484,11 @@ class Screen:
         place = self.world(x, y)
         if part == 1.0 and self.state.building and self._under(x, y)[0] is None:
             place = self._gridded(*place)
-        return (*place, self._near, part * self.sheet_step)
+        return (*place, self.near, part * self.sheet_step)
 
     def hover(self, x: float, y: float) -> Hover:
         """Return the tool or the place of the sheet under a pixel."""
-        return Hover(self.world(x, y), self._near, self.tool_at(x, y))
+        return Hover(self.world(x, y), self.near, self.tool_at(x, y))
 
     def aimed(self, cursor: Point | None, way: tuple[float, ...]) -> tuple[float, float]:
         """Return where the keys' cursor goes: to the next line of the grid, or one step on a fine way.
@@ -590,7 +543,7 @@ class Screen:
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
         reach = 1.6 * self._framing.last.layout.text_size
-        away = {n: hypot(*self._from(spot.at, x, y)) for n, spot in enumerate(self.over.spots)}
+        away = {n: hypot(*self.away(spot.at, x, y)) for n, spot in enumerate(self.over.spots)}
         near = min(away, key=lambda n: away[n], default=None)
         if near is not None and away[near] <= reach:
             return near

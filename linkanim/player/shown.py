@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -19,17 +18,13 @@ from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.overlay import (
-    AnswerRow,
     BuildShown,
-    DialShown,
     DimensionLine,
     DraftShown,
     EditRow,
     Fading,
     Overlay,
     Panel,
-    PathShown,
-    PosesShown,
     RowsShown,
     Rubber,
     SliderShown,
@@ -40,31 +35,23 @@ from linkanim.picture.overlay import (
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
-from linkanim.player.dial import place_of
 from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, told
-from linkanim.player.posing import free_joints
 from linkanim.player.state import (
-    DIAL,
     FLASH_FRAMES,
-    LARGEST_DIAL,
     SHUTTER_FRAMES,
     BuildSheet,
     Changeover,
     Grip,
-    PathSketch,
-    PoseSketch,
-    Sketch,
     State,
     driven_bar,
 )
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
-from linkanim.scenes.scene import Scene, TimeRatioPurpose
-from linkanim.units import short, significant, three_digits, typeset
+from linkanim.scenes.scene import TimeRatioPurpose
+from linkanim.units import short, significant, typeset
 
 if TYPE_CHECKING:
-    from linkanim.synthesis.answers import PathAnswer
-    from linkanim.synthesis.guidance import PoseAnswer
+    pass
 
 # What a sheet shows: its draft or the linkage made from it, words, tools, what is under the hand.
 
@@ -265,13 +252,6 @@ _HINT = (
     "Ctrl+S save   Esc closes"
 )
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
-_FREE = {
-    2: "pivots and joints are free: drag them",
-    3: "a pivot or its joint is free: drag them",
-    4: "pivots and joints slide along Burmester's curves (B)",
-    5: "nothing is free: Burmester's points (B)",
-}
-"""The linkages that can be found, by the number of poses."""
 _MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
 """The tool that is in hand beside the list of dimensions."""
 FAMILY = 100
@@ -351,9 +331,6 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
         recording=_recording(state),
         help=help_groups(state.keys, pad=state.pad) if state.help else None,
         panel=_panel(state, items) if state.editing.open else None,
-        path=_path(state.drawing) if state.drawing else None,
-        poses=_poses(state, state.posing) if state.posing else None,
-        row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
         construction=state.constructed,
         slider=_slider(state),
@@ -400,126 +377,6 @@ def _slider(state: State) -> SliderShown | None:
     least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
     label = f"transmission {least}, best {best}"
     return SliderShown(label, "short coupler", "long coupler", FAMILY, round(member.place * FAMILY))
-
-
-def _poses(state: State, sketch: PoseSketch) -> PosesShown:
-    """Return poses with the shown answer's coupler in each, and the words about them."""
-    answer = sketch.answer
-    handles: tuple[Point, ...] = ()
-    bodies: list[tuple[Point, ...]] = []
-    if answer:
-        joints, first = answer.joints, sketch.poses[0]
-        handles = tuple(free_joints(sketch).values())
-        origin = complex(first.x, first.y)
-        for pose in sketch.poses:
-            turn = cmath.rect(1.0, pose.angle - first.angle)
-            at = complex(pose.x, pose.y)
-            bodies.append(tuple(as_point(at + turn * (joints[name] - origin)) for name in "ABP"))
-    sentence, facts = _said_of_poses(state, sketch)
-    return PosesShown(
-        sketch.poses,
-        sketch.pins,
-        handles,
-        tuple(bodies),
-        sketch.taken,
-        sketch.cursor,
-        sketch.curves,
-        sketch.held is not None,
-        sketch.is_blank,
-        sentence,
-        facts,
-        bool(sketch.refusal),
-    )
-
-
-def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ...]]:
-    """Return words on what is missing, on why there is no linkage, or on the shown one."""
-    kind, count = "slider-crank" if sketch.sliding else "four-bar", len(sketch.poses)
-    sets = ("pins",) if sketch.pinning else ()
-    if sketch.refusal:
-        return sketch.refusal, sets
-    if not sketch.is_asked:
-        begun = "one pose; set down another" if count else "set down two to five poses: press and drag"
-        return begun, (f"a {kind} is to pass them", *sets)
-    answer = sketch.answer
-    if answer is None:
-        return f"{count} poses: looking for a {kind}", sets
-    angle = f"{degrees(answer.transmission):.0f}°"
-    lacks = ", ".join(answer.named_defects)
-    facts = f"longest link {short(answer.size)} {sketch.unit}, transmission angle {angle}"
-    lacking = f"defects: {lacks}" if lacks else "passes them in order on one branch"
-    found = f"{state.scene.info.class_name} through {count} poses"
-    return found[:1].upper() + found[1:], (facts, lacking, _FREE[count], *sets)
-
-
-def _path(sketch: PathSketch) -> PathShown:
-    curve, off = sketch.curve, _off(sketch)
-    held = sketch.held if isinstance(sketch.held, int) else None
-    searched = "searching" if curve and not sketch.pen else None
-    pins = tuple(place for _, place in sketch.pivots)
-    cognates = tuple(n for n, one in enumerate(sketch.cognates) if one)
-    words = searched if sketch.is_blank else off
-    return PathShown(curve, sketch.pen, sketch.is_blank, words, held, pins, cognates=cognates)
-
-
-def _off(sketch: PathSketch) -> str | None:
-    """Say how far the shown answer deviates, and its other figures."""
-    answer = sketch.answer
-    if answer is None or sketch.off is None:
-        return None
-    if isinstance(answer, Scene) or not answer.size:
-        return f"{_percent(sketch.off)} off"
-    return _figures(answer).replace("%", "% off", 1)
-
-
-def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
-    """Return the row of answers; while something is dragged, with the pictures from before."""
-    entries = tuple(
-        sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
-    )
-    names = tuple("" for _ in entries)
-    still = state.clock.paused or sketch.held is not None
-    row = AnswerRow(
-        entries, names, names, sketch.chosen, sketch.unit, state.frame, state.look.theme, still=still
-    )
-    if isinstance(sketch, PoseSketch):
-        words = tuple(_sized(one, sketch) for one in sketch.answers)
-        poses = (sketch.earlier or sketch).poses if sketch.held else sketch.poses
-        return replace(row, words=words, dial=_weight(sketch), poses=poses)
-    assert isinstance(sketch, PathSketch)
-    words = tuple("its own" if isinstance(one, Scene) else _figures(one) for one in sketch.answers)
-    names = sketch.names if len(sketch.names) == len(words) else names
-    chosen = sketch.chosen if sketch.dialled is None else -1
-    dial = None
-    if len(sketch.way) > 1:
-        marks = tuple(n / (len(sketch.way) - 1) for n, one in enumerate(sketch.way) if one in sketch.answers)
-        dial = DialShown(place_of(sketch), "exact", "compact", marks, sketch.held == DIAL)
-    return replace(row, names=names, words=words, chosen=chosen, dial=dial)
-
-
-def _weight(sketch: PoseSketch) -> DialShown:
-    """Return the dial of poses, its middle marked."""
-    share = (sketch.dial + LARGEST_DIAL) / (2 * LARGEST_DIAL)
-    return DialShown(share, "compact", "steep angle", (0.5,))
-
-
-def _figures(answer: PathAnswer) -> str:
-    """Return an answer's deviation, and where they are known its size and least transmission angle."""
-    if not answer.size:
-        return _percent(answer.off)
-    return f"{_percent(answer.off)} · ×{significant(answer.size, 2)} · {round(degrees(answer.angle))}°"
-
-
-def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
-    """Return an answer's longest link and transmission angle, or its first defect."""
-    lacks = answer.named_defects
-    words = lacks[0] if lacks else f"{degrees(answer.transmission):.0f}°"
-    return f"{three_digits(answer.size)} {sketch.unit} · {words}"
-
-
-def _percent(share: float) -> str:
-    """Return a share in percent, to two digits; below a hundred thousandth it is 0."""
-    return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
 
 
 def _chip(state: State) -> Fading | None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from linkanim.picture.overlay import AnswerRow
+from linkanim.player.action import Action
 from linkanim.player.edits import exchanged, followed
-from linkanim.player.state import POSED, PathSketch, PoseSketch, State, with_effect, with_undo
+from linkanim.player.state import POSED, PathSketch, PoseSketch, Sketch, State, with_effect, with_undo
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
@@ -16,7 +18,7 @@ _SAME = 0.02
 
 def sketching(state: State, **changes: object) -> State:
     """Return the state with its sketch changed, if there is one."""
-    return replace(state, sketch=state.sketch and replace(state.sketch, **changes))  # type: ignore[arg-type]
+    return state.with_mode(replace(state.sketch, **changes)) if state.sketch else state  # type: ignore[arg-type]
 
 
 def left(state: State) -> State:
@@ -25,7 +27,7 @@ def left(state: State) -> State:
     if sketch is None:
         return state
     faded = state.faded if state.scene is sketch.before else state.frame
-    back = replace(state, sketch=None, glide=None, faded=faded)
+    back = replace(state.without(Sketch), glide=None, faded=faded)
     return replace(back, scene=sketch.before, clock=sketch.clock, editing=sketch.editing)
 
 
@@ -34,7 +36,19 @@ def keep(state: State, _: None) -> State:
     sketch = state.sketch
     if sketch is None or sketch.is_blank or state.scene is sketch.before:
         return left(state)
-    return replace(state, sketch=None, editing=with_undo(sketch.editing, sketch.before))
+    return replace(state.without(Sketch), editing=with_undo(sketch.editing, sketch.before))
+
+
+_KEEPS = frozenset({"edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers"})
+_LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
+"""Actions that keep the answer first, and those that first go back to the scene before."""
+REFUSED = frozenset({"unit", "undo", "redo"})
+"""Actions that are refused meanwhile: points keep their unit, and edits are the scene's."""
+
+
+def before(state: State, action: Action) -> State:
+    """Return the state in which an action on a scene is carried out: the answer is kept, or left."""
+    return keep(state, None) if action.name in _KEEPS else left(state) if action.name in _LEAVES else state
 
 
 def follow(state: State, numbers: tuple[float, ...]) -> State:
@@ -114,7 +128,7 @@ def choose(state: State, place: int) -> State:
         return state
     scene = sketch.scene_of(sketch.answers[place])
     state = replace(exchanged(state, scene), glide=None, faded=state.frame)
-    return replace(state, sketch=sketch.picking(place))
+    return state.with_mode(sketch.picking(place))
 
 
 def take_back(state: State, _: None) -> State:
@@ -123,7 +137,7 @@ def take_back(state: State, _: None) -> State:
     if sketch is None or sketch.earlier is None or sketch.held is not None:
         return state
     back = replace(sketch.earlier.at_rest, strokes=sketch.strokes + 1)
-    state = replace(state, sketch=back)
+    state = state.with_mode(back)
     if back.answer is None:
         return with_effect(state, "search") if back.is_asked else state
     return followed(state, back.scene_of(back.answer))
@@ -139,3 +153,13 @@ def released(state: State) -> State:
     if answer and not isinstance(answer, Scene) and state.scene is not sketch.base:
         state = exchanged(state, sketch.scene_of(answer))
     return with_effect(state, "search")
+
+
+def row_of(state: State, sketch: Sketch, words: tuple[str, ...]) -> AnswerRow:
+    """Return the row of answers with words about each; while something is dragged, as it was before."""
+    entries = tuple(
+        sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
+    )
+    names, still = tuple("" for _ in entries), state.clock.paused or sketch.held is not None
+    theme = state.look.theme
+    return AnswerRow(entries, names, words, sketch.chosen, sketch.unit, state.frame, theme, still=still)

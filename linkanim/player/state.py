@@ -372,8 +372,97 @@ def driven_bar(draft: Draft) -> Thing | None:
     return next((("bars", name) for name, end, _ in bars if end in draft.of("pins")), None)
 
 
+# What is open over the picture.
+
+
+class Rule(NamedTuple):
+    """One action: the test that its value must pass, and the state that it makes of another.
+
+    `taped` is False for actions outside the picture, which no tape keeps. `answer` says in a word or two what
+    changed, from the states before and after.
+    """
+
+    check: Callable[[object], bool]
+    handle: Callable[[State, Any], State]
+    taped: bool = True
+    answer: Callable[[State, State], str | None] | None = None
+
+
+Resolver = Callable[[Any, Value], Iterable[Action]]
+"""What an action asks of a window with these contents, by its value."""
+
+
+class Mode:
+    """What is open over the picture, in a module of its own: its keys, bar, actions, mouse and panel.
+
+    Modes are frozen values on the state's stack `modes`; equal ones look the same. Keys, mouse and Esc are
+    for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
+    depend on what is visible, or outside. One that `is_listed` takes the room of a list; one that
+    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input. One that
+    `has_head` has words above the linkage. It `refuses` some actions, and may have a `pointer` of its own.
+    """
+
+    keys: ClassVar[ModeKeys]
+    bar: ClassVar[tuple[BarEntry, ...]]
+    actions: ClassVar[Mapping[str, Rule]]
+    meanings: ClassVar[Mapping[str, Resolver]] = MappingProxyType({})
+    is_listed: ClassVar[bool] = False
+    gives_way: ClassVar[bool] = False
+    leads: ClassVar[bool] = False
+    has_head: ClassVar[bool] = False
+    refuses: ClassVar[frozenset[str]] = frozenset()
+    pointer: ClassVar[str] = ""
+
+    @property
+    def typing(self) -> bool:
+        """Whether something has been begun by typing."""
+        return False
+
+    @property
+    def is_paper(self) -> bool:
+        """Whether what is drawn can be shifted anywhere."""
+        return False
+
+    @property
+    def title(self) -> str:
+        """The title of its panel, where there are several; else empty."""
+        return ""
+
+    def look(self, look: Look) -> Look:
+        """Return the look of the picture under the mode."""
+        return look
+
+    def ready_for(self, state: State, action: Action) -> State:
+        """Return the state in which an action that is not of the mode is carried out."""
+        del action
+        return state
+
+    def aged(self, state: State) -> State:
+        """Return the state, which is a frame older already, with the effect of time on the mode."""
+        return state
+
+    def closed(self, state: State) -> State:
+        """Return the state after Esc or the back arrow: without the mode, unless it has to let go first."""
+        return state.without(type(self))
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the mode's own parts."""
+        del state
+        return over
+
+    def mouse(self, gesture: Any, mouse: Any, screen: Any) -> tuple[Action, ...] | None:
+        """Return the actions of a gesture; None where the mouse acts as without the mode."""
+        del gesture, mouse, screen
+        return None
+
+
+OneMode = TypeVar("OneMode", bound=Mode)
+
+
 # Sketches for which linkages are found: the pencil's stroke, or poses of a body.
 
+REACH, NEAR_HAND = 0.035, 0.02
+"""How near counts as on a handle, and as on a joint or a curve, in heights of the window."""
 PIVOTS = ("O2", "O4")
 """The fixed pins of every answer."""
 _MANY = 1e5
@@ -385,7 +474,7 @@ DIAL = "dial"
 
 
 @frozen
-class Sketch(ABC):
+class Sketch(Mode, ABC):
     """A sketch over the scene `before`, which comes back with its clock and editing, and its answers.
 
     All is in the `unit` of length in which scenes were shown then; `strokes` counts the requests for answers.
@@ -664,84 +753,6 @@ class Edited(NamedTuple):
     editing: Editing
 
 
-class Rule(NamedTuple):
-    """One action: the test that its value must pass, and the state that it makes of another.
-
-    `taped` is False for actions outside the picture, which no tape keeps. `answer` says in a word or two what
-    changed, from the states before and after.
-    """
-
-    check: Callable[[object], bool]
-    handle: Callable[[State, Any], State]
-    taped: bool = True
-    answer: Callable[[State, State], str | None] | None = None
-
-
-Resolver = Callable[[Any, Value], Iterable[Action]]
-"""What an action asks of a window with these contents, by its value."""
-
-
-class Mode:
-    """What is open over the picture, in a module of its own: its keys, bar, actions, mouse and panel.
-
-    Modes are frozen values on the state's stack `modes`; equal ones look the same. Keys, mouse and Esc are
-    for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
-    depend on what is visible, or outside. One that `is_listed` takes the room of a list; one that
-    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input. One that
-    `has_head` has words above the linkage; what is drawn on one that `is_paper` can be shifted anywhere.
-    """
-
-    keys: ClassVar[ModeKeys]
-    bar: ClassVar[tuple[BarEntry, ...]]
-    actions: ClassVar[Mapping[str, Rule]]
-    meanings: ClassVar[Mapping[str, Resolver]] = MappingProxyType({})
-    is_listed: ClassVar[bool] = False
-    gives_way: ClassVar[bool] = False
-    leads: ClassVar[bool] = False
-    has_head: ClassVar[bool] = False
-    is_paper: ClassVar[bool] = False
-
-    @property
-    def typing(self) -> bool:
-        """Whether something has been begun by typing."""
-        return False
-
-    @property
-    def title(self) -> str:
-        """The title of its panel, where there are several; else empty."""
-        return ""
-
-    def look(self, look: Look) -> Look:
-        """Return the look of the picture under the mode."""
-        return look
-
-    def before(self, state: State, action: Action) -> State:
-        """Return the state in which an action that is not of the mode is carried out."""
-        del action
-        return state
-
-    def aged(self, state: State) -> State:
-        """Return the state, which is a frame older already, with the effect of time on the mode."""
-        return state
-
-    def closed(self, state: State) -> State:
-        """Return the state after Esc or the back arrow: without the mode, unless it has to let go first."""
-        return state.without(type(self))
-
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the mode's own parts."""
-        del state
-        return over
-
-    def mouse(self, gesture: Any, mouse: Any, screen: Any) -> tuple[Action, ...] | None:
-        """Return the actions of a gesture; None where the mouse acts as without the mode."""
-        del gesture, mouse, screen
-        return None
-
-
-OneMode = TypeVar("OneMode", bound=Mode)
-
-
 class Game(Protocol):
     """A running game, or the title: a frozen value to which the state hands its actions.
 
@@ -775,9 +786,8 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab goes through, by their catalogue names or as scenes, and `place` is
-    that of the present one. `sketch` is the pencil's stroke or poses, `sheet` the sheet, which may be closed.
-    `construction` has the scene whose construction is drawn, and how many steps of it. `kept` has the edited
-    scenes of other places.
+    that of the present one. `sheet` is the sheet, which may be closed. `construction` has the scene whose
+    construction is drawn, and how many steps of it. `kept` has the edited scenes of other places.
 
     `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
     `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
@@ -815,7 +825,6 @@ class State:
     held: Held | None = None
     grasp: Grasp | None = None
     kept: tuple[Edited, ...] = ()
-    sketch: Sketch | None = None
     sheet: BuildSheet | None = None
     construction: tuple[Scene, int] | None = None
     game: Game | None = None
@@ -893,8 +902,6 @@ class State:
             return "game"
         if self.editing.open:
             return "numbers" if self.building else "edit"
-        if self.sketch:
-            return "poses" if self.posing else "pencil"
         if self.building:
             return "build"
         return "paused" if self.clock.paused else "play"
@@ -906,14 +913,19 @@ class State:
         return steps if scene is self.scene and not (self.sketch or self.building or self.game) else 0
 
     @property
+    def sketch(self) -> Sketch | None:
+        """The pencil's stroke, or the poses that were set down."""
+        return self.of(Sketch)  # type: ignore[type-abstract]
+
+    @property
     def drawing(self) -> PathSketch | None:
         """What the pencil has drawn."""
-        return self.sketch if isinstance(self.sketch, PathSketch) else None
+        return self.of(PathSketch)
 
     @property
     def posing(self) -> PoseSketch | None:
-        """The poses that were set down, while they are the sketch."""
-        return self.sketch if isinstance(self.sketch, PoseSketch) else None
+        """The poses that were set down."""
+        return self.of(PoseSketch)
 
     @property
     def building(self) -> BuildSheet | None:

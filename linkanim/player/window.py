@@ -41,7 +41,7 @@ from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, lasting, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import BuildSheet, Game, PoseSketch, State, Take, begin, recovered, report
+from linkanim.player.state import BuildSheet, Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
 from linkanim.scenes.files import path_of
@@ -210,7 +210,8 @@ class Window:
 
     def resolved(self, action: Action) -> Iterator[Action]:
         """Yield an action; one that depends on what is visible or in the folder is resolved first."""
-        meaning = MEANINGS.get(action.name)
+        own = (mode.meanings for mode in reversed(self.state.modes) if action.name in mode.meanings)
+        meaning = next(own, MEANINGS).get(action.name)
         yield from meaning(self, action.value) if meaning else (action,)
 
     def _back(self, _: Value) -> Iterator[Action]:
@@ -288,16 +289,13 @@ class Window:
             self._following.ask(request)
 
     def _aim(self, way: Value) -> Iterator[Action]:
-        """Yield what an arrow means on a sheet or with poses: the cursor moves."""
-        on = self._sheet or self.state.posing
-        if on and isinstance(way, tuple):
-            yield Action("cursor", self.screen.aimed(on.cursor, way))
+        """Yield what an arrow means on a sheet: the cursor moves."""
+        if self._sheet and isinstance(way, tuple):
+            yield Action("cursor", self.screen.aimed(self._sheet.cursor, way))
 
     def _enter(self, twice: Value) -> Iterator[Action]:
         """Yield what Enter means on a sheet: a number is taken, or the hand goes down or up at the cursor."""
         sheet = self._sheet
-        if self.state.posing:
-            yield self._posed(self.state.posing)
         if sheet is None:
             return
         if sheet.building.typed:
@@ -309,14 +307,6 @@ class Window:
             click = Action("hand_down", self.screen.handed(*at, 1.0)), Action("hand_up")
             on_paper = self.screen.sheet_at(*at) == "paper"
             yield from 2 * click if twice else click if on_paper else click[:1]
-
-    def _posed(self, sketch: PoseSketch) -> Action:
-        """Return what Enter means with poses: the hand goes down or up, or the linkage is kept."""
-        if sketch.held:
-            return Action("hand_up")
-        if sketch.cursor is None:
-            return Action("keep")
-        return Action("hand_down", self.screen.handed(*self.screen.pixel(*sketch.cursor), 1.0))
 
     @property
     def _sheet(self) -> BuildSheet | None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pygame
 import pytest
-from playing import CTRL, SHIFT, NoSearch, Player
+from playing import CTRL, SHIFT, NoSearch, Player, the
 
 from linkanim.picture.cognates import cognate_sides
 from linkanim.picture.view import Rect
@@ -20,6 +20,7 @@ from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import actions_of, request_of
+from linkanim.player.pencil import Pencil, cognate_at
 from linkanim.player.shown import overlay
 from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, PathSketch, State, begin
 from linkanim.player.tape import Tape, Taping
@@ -175,7 +176,7 @@ def test_a_pivot_that_is_dragged_is_held_where_it_was_put(answered: State) -> No
     request = request_of(sketch_of(state), search=True)
     assert request is not None
     assert (list(request.pivots), request.near) == ([None, (110.0, 12.0)], BETTER)
-    assert sketch_of(drawn(replace(state, sketch=None))).pivots == ()
+    assert sketch_of(drawn(state.without(Pencil))).pivots == ()
 
 
 def test_strokes_and_drags_are_taken_back_one_by_one(answered: State) -> None:
@@ -616,10 +617,10 @@ def test_a_cognate_leaves_the_dial_where_it_is(fronted: State) -> None:
 
 
 def test_a_cognate_that_is_far_larger_is_not_shown(answered: State) -> None:
-    large = replace(answered, sketch=replace(sketch_of(answered), answers=(_sized(3.0), _sized(0.5))))
+    large = answered.with_mode(replace(sketch_of(answered), answers=(_sized(3.0), _sized(0.5))))
     assert [*map(bool, sketch_of(large).cognates)] == [True, False]
     many = PathAnswer(0.12, 1.0, 0.3, 1.0, (0.0, 0.0, 10.0, 40.0, 300.0, 20.0, 42.0, 0.0, 30.0), 3.0, 0.5)
-    shown = sketch_of(replace(answered, sketch=replace(sketch_of(answered), answers=(many,))))
+    shown = sketch_of(answered.with_mode(replace(sketch_of(answered), answers=(many,))))
     assert all(one is None or one.size <= 3.0 for one in shown.cognates)
 
 
@@ -646,8 +647,8 @@ def test_a_click_on_a_faint_linkage_takes_it_and_a_stroke_begun_there_is_drawn(p
         begin + share / 9 * (end - begin) for begin, end in cognate_sides(pose, 0) for share in range(9)
     ]
     pixels = [screen.pixel(one.real, one.imag) for one in places]
-    at = next(one for one in pixels if screen.pencil_at(*one, 30).name == "pen_down")
-    assert screen.cognate_at(*at, 10) == 0
+    at = next(one for one in pixels if the(player.state, Pencil).begun(screen, *one, 30).name == "pen_down")
+    assert cognate_at(screen, *at, 10) == 0
     player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
     player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
     taken = sketch_of(player.state)
