@@ -8,14 +8,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from linkanim.explain.documents import MARKDOWN, document, exercise
+from linkanim.explain.documents import MARKDOWN, document
+from linkanim.explain.exercise import exercise
 from linkanim.explain.formula import LATEX, Symbol
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.mechanics.quantities import called
 from linkanim.paper.curves import Pace
-from linkanim.paper.figure import Figured
+from linkanim.paper.figure import Figured, dimensioned
 from linkanim.paper.findings import Instant, Values, value_tables
-from linkanim.paper.report import FIGURE
 from linkanim.paper.svg import flat
 from linkanim.picture.items import Caption
 from linkanim.picture.stills import still_phase
@@ -93,7 +93,7 @@ def test_every_number_is_the_same_in_figure_text_results_key_and_tables(name: st
     phase = still_phase(scene)
     found = solution(PoseRequest(scene, "phase", phase, scene.linkage.drive.speed))
     places: dict[str, list[tuple[str, str]]] = {}
-    for symbol, number, where in _shown(found, Figured(scene, (900, 700), FIGURE, phase)):
+    for symbol, number, where in _shown(found, dimensioned(scene, phase)):
         if symbol not in LOCAL:
             places.setdefault(symbol, []).append((number, where))
     wrong, compared = [], 0

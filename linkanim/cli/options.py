@@ -665,11 +665,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _either(_ANGLE, _PHASE),
         _SPEED,
         _ACCELERATION,
-        _flag("--exercise", "leave the numbers open, and put the key on a page of its own"),
+        _flag("--exercise", "ask questions instead, with room to work, and put the key on pages of its own"),
         _takes(
             "--level",
-            choices=("formulas", "drawing"),
-            help="what an exercise gives: the formulas, or nothing but the drawing (default: formulas)",
+            choices=("drawing", "hints", "formulas"),
+            help="what an exercise gives: the drawing alone, hints, or the formulas (default: drawing)",
         ),
         _value(
             "--versions N",

@@ -8,6 +8,8 @@ From the ground up; a module imports from those before it only:
     synthesis     the chapter on how a linkage was made
     whole_motion  the chapters on how far the input goes and where the output turns back
     solution      the chapters of a pose, in order
-    documents     a solution or an exercise as HTML, LaTeX or Markdown
+    questions     what an exam asks about a pose, each question with the steps that answer it
+    documents     a solution as HTML, LaTeX or Markdown
+    exercise      questions with room to work, and their key
     variant       the same exercise with other round lengths
 """

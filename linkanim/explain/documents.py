@@ -11,19 +11,18 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, reduce
 from html import escape
 from itertools import chain, groupby, pairwise
 from pathlib import Path
-from typing import Literal
 from unicodedata import east_asian_width
 
 import numpy as np
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
-from linkanim.explain.solution import Solution
+from linkanim.explain.solution import TOLD, Solution
 from linkanim.explain.steps import (
     HALF,
     MARKED,
@@ -138,10 +137,21 @@ body {{ font: {font} "Helvetica Neue", Arial, "Liberation Sans", sans-serif;
 
 
 _STYLE = f"""{body_style("16px/1.5", 56)}\
-h1 {{ font-size: 1.8rem; margin: 0; }} p {{ margin: .3rem 0; }}
+h1 {{ font-size: 1.8rem; margin: 0; }} p {{ margin: .3rem 0; }} sub {{ line-height: 0; }}
 h2 {{ font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }}
 h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoid; }}
-.key {{ break-before: page; }} @page {{ size: A4; margin: 11mm 13mm; }}
+.key {{ break-before: page; }}
+.signed {{ display: flex; gap: 1.5rem; margin: .8rem 0; }} .signed span {{ flex: 1;
+  border-bottom: 1px solid #57606a; }}
+.signed span:first-child {{ flex: 2; }}
+.task {{ display: grid; grid-template-columns: 3fr 1.3fr; gap: 0 1.2rem; align-items: start; }}
+.task ul.given {{ columns: 1 !important; padding: 0; margin: 0; }} .task figure.vectors {{ margin: 0; }}
+.question {{ display: flex; flex-direction: column; break-inside: avoid; margin: .8rem 0 0; }}
+.question .room {{ flex: 1; min-height: 5rem; }} 
+.marks {{ float: right; color: #57606a; padding-left: 1rem; }}
+.hint {{ color: #57606a; }}
+.answers {{ display: flex; flex-wrap: wrap; gap: .3rem 1.6rem; }} .answers span {{ white-space: nowrap; }}
+@page {{ size: A4; margin: 11mm 13mm; }}
 @media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 8.5pt; line-height: 1.2; }}
   h1 {{ font-size: 15pt; }} h2 {{ font-size: 11.5pt; margin: .4rem 0 .1rem; border-width: 1px; }}
   h3 {{ font-size: 9pt; margin: .2rem 0 0; }}
@@ -151,7 +161,10 @@ h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoi
   .steps {{ display: grid; grid-template-columns: 1fr 1fr; gap: 0 1rem; align-items: start; }}
   .steps > .wide {{ grid-column: 1 / -1; }} .steps > .short {{ break-inside: avoid; }}
   ul.given {{ columns: 3 !important; }} ul.results {{ columns: 5 !important; }}
-  figure.vectors svg {{ max-height: 66mm; width: auto; }} }}
+  figure.vectors svg {{ max-height: 66mm; width: auto; }}
+  .page {{ display: flex; flex-direction: column; min-height: 272mm; break-after: page; }}
+  .page p, .page li {{ font-size: 10pt; line-height: 1.3; }} .question .room {{ min-height: 12mm; }}
+  .task figure.vectors svg {{ width: 100%; max-height: 95mm; }} .page .answers math {{ font-size: 11pt; }} }}
 """
 _MATH = """
 math { font-family: "Linkanim Math", "Latin Modern Math", "STIX Two Math", math; }
@@ -176,7 +189,23 @@ def math_style() -> str:
 
 
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
-_KEY_DIGITS = 5
+
+
+class QuestionParts(NamedTuple):
+    """The markup of a question: its number, words, marks, hint, answers, and formulas in place of room."""
+
+    number: int
+    text: str
+    marks: int
+    hint: str
+    answers: str
+    formulas: str
+
+
+def _plain_question(one: QuestionParts) -> str:
+    """Return a question in Markdown."""
+    head = f"**{one.number}.** {one.text} ({one.marks} marks)"
+    return "\n\n".join(part for part in (head, one.hint, one.formulas, one.answers) if part)
 
 
 @frozen
@@ -186,6 +215,10 @@ class DocumentForm:
     `listed` sets a list of formulas with the words for each. `figure` draws the loops, `construction` how the
     linkage was made; a page leaves both to a module that prints pictures. `steps` joins the steps of a
     chapter. `new_page` begins a page.
+
+    Of an exercise, `beside` sets what is given beside the figure, `question` a question, and `answers` the
+    numbers to be found, with room to write; `named` is the line for name and marks, where `{}` are the most,
+    and `sheet` makes its pages.
     """
 
     how: Notation
@@ -200,56 +233,22 @@ class DocumentForm:
     construction: Callable[[Solution], str] = lambda _: ""
     steps: Callable[[list[str]], str] = "\n\n".join
     new_page: str = ""
-
-
-Level = Literal["formulas", "drawing"]
-"""What an exercise gives besides its numbers: the formulas, or only the drawing."""
+    beside: Callable[[str, str], str] = lambda one, other: "\n\n".join(filter(None, (one, other)))
+    question: Callable[[QuestionParts], str] = _plain_question
+    answers: Callable[[list[str]], str] = "\n\n".join
+    named: str = ""
+    sheet: Callable[[list[str]], str] = "\n\n".join
 
 
 def document(found: Solution, form: DocumentForm) -> str:
     """Return a worked solution as a document of this form."""
     parts = [
         form.heading(1, found.title),
-        _where(found, form),
+        where_words(found, form),
         *chapters(found, form),
         *_results(found, form),
     ]
     return form.page(found.title, "\n\n".join(part for part in parts if part))
-
-
-def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "formulas") -> str:
-    """Return sheets with their numbers left open, each on pages of its own, and then the key of each.
-
-    Where there are several versions, each has a letter, A first.
-    """
-    titles = [f"{one.title}, {chr(65 + n)}" for n, one in enumerate(versions)]
-    titles = titles if len(versions) > 1 else [versions[0].title]
-    parts: list[str] = []
-    for title, found in zip(titles, versions, strict=True):
-        parts += [form.new_page] if parts else []
-        parts += [form.heading(1, title), _where(found, form)]
-        parts += chapters(found, form, blank=True) if level == "formulas" else _drawn_alone(found, form)
-    for title, found in zip(titles, versions, strict=True):
-        parts += [form.new_page, form.heading(1, f"Key: {title}"), _where(found, form), *_key(found, form)]
-    return form.page(titles[0], "\n\n".join(part for part in parts if part))
-
-
-def _drawn_alone(found: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield the given values, the drawing, and the unknowns, each with room for its number."""
-    given, *_ = found.chapters
-    yield form.heading(2, given.title)
-    for step in given.steps:
-        yield from _set([item for item in step.items if isinstance(item, Given)], form, blank=True)
-    yield form.figure(found)
-    yield form.heading(2, "Find")
-    asked = (result for result in _by_owner(found) if result.value.operation == "leaf")
-    yield form.listed([(_open(result, form), "") for result in asked])
-
-
-def _open(result: Outcome, form: DocumentForm) -> str:
-    """Return a result with its number left open."""
-    blank = form.how.blank + form.how.unit(result.unit)
-    return form.inline(form.how.infix("=", typeset(result.value, form.how), blank))
 
 
 def _by_owner(found: Solution) -> Iterator[Outcome]:
@@ -265,10 +264,11 @@ def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield the list of all results, with its heading."""
     yield form.heading(2, "All results")
     solved = found.solved
-    yield form.listed([_listed(_short(one.value, solved), one.unit, "", form) for one in _by_owner(found)])
+    yield form.listed([listed(short(one.value, solved), one.unit, "", form) for one in _by_owner(found)])
 
 
-def _where(found: Solution, form: DocumentForm) -> str:
+def where_words(found: Solution, form: DocumentForm) -> str:
+    """Return the paragraph that says where the input is."""
     called, place = found.where
     symbol = form.text(called) if isinstance(called, str) else form.inline(form.how.symbol(called))
     return form.paragraph(f"{form.text('At')} {symbol} = {form.text(place)}.")
@@ -281,16 +281,16 @@ def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Ite
         drawn = form.figure(found) if chapter is found.loop_chapter else ""
         if chapter is found.synthesis_chapter:
             yield form.construction(found)
-        written = ["\n\n".join(_step(step, form, blank)) for step in chapter.steps]
+        written = ["\n\n".join(step_parts(step, form, blank)) for step in chapter.steps]
         yield form.steps([part for part in (drawn, *written) if part])
 
 
-def _step(step: Step, form: DocumentForm, blank: bool) -> Iterator[str]:
+def step_parts(step: Step, form: DocumentForm, blank: bool) -> Iterator[str]:
     """Yield the parts of one step."""
     if step.title:
         yield form.heading(3, step.title)
     for _, items in groupby(step.items, _sort):
-        yield from _set([*items], form, blank)
+        yield from set_items([*items], form, blank)
 
 
 def _sort(item: Item) -> type[Item]:
@@ -298,10 +298,10 @@ def _sort(item: Item) -> type[Item]:
     return Equation if isinstance(item, ValueLine) else type(item)
 
 
-def _set(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
+def set_items(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
     """Yield the parts of neighbours of one sort: equations in one block, sentences one by one."""
     if given := [item for item in items if isinstance(item, Given)]:
-        yield form.listed([_listed(item.value, item.unit, item.words, form) for item in given])
+        yield form.listed([listed(item.value, item.unit, item.words, form) for item in given])
     if found := [row for item in items for row in rows(item, form.how, blank=blank)]:
         yield form.aligned(found)
     for item in items:
@@ -312,30 +312,21 @@ def _set(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
             yield form.paragraph(f"Unknown: {', '.join(symbols)}")
 
 
-def _listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[str, str]:
+def listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[str, str]:
+    """Return an entry of a list: a symbol = a number with its unit, and words."""
     number = form.how.number(value.shown, False) + form.how.unit(unit)
     return form.inline(form.how.infix("=", typeset(value, form.how), number)), words
 
 
-def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield all values that are worked out, chapter by chapter."""
-    solved = found.solved
-    for chapter in found.chapters:
-        lines = [item for item in chapter.items if isinstance(item, ValueLine)]
-        if lines:
-            yield form.heading(2, chapter.title)
-            yield form.listed([_listed(_short(line.value, solved), line.unit, "", form) for line in lines])
-
-
-def _short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
-    """Return a value in as many digits as a key needs.
+def short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
+    """Return a value in the digits that are told of a result.
 
     A result has the digits of the solver's value. Where its line does not round to these it has one more, in
     which both are one number, or else fewer.
     """
     true = solved.get(value.symbol, value.value) if value.symbol and value.value else value.value
     there = len(value.shown.partition(".")[2])
-    usual = min(decimals(true, _KEY_DIGITS), there)
+    usual = min(decimals(true, TOLD), there)
     tried = (usual, min(usual + 1, there), *range(usual - 1, -1, -1))
     right = (n for n in tried if abs(float(rounded(true, n)) - value.value) <= HALF * 10**-n)
     return replace(value, shown=rounded(true, next(right, 0)))
@@ -380,6 +371,16 @@ def _html_steps(steps: list[str]) -> str:
     return "<div class='steps'>\n" + "\n".join(cells) + "\n</div>"
 
 
+def _html_question(one: QuestionParts) -> str:
+    """Return a question: on paper those of a page share the room that is left, by their marks."""
+    marks = f"<span class='marks'>{one.marks} marks</span>"
+    head = f"<p>{marks}<b>{one.number}</b> {one.text}</p>"
+    hint = f"<p class='hint'>{one.hint}</p>" if one.hint else ""
+    room = one.formulas or "<div class='room'></div>"
+    grows = "" if one.formulas else f" style='flex-grow: {one.marks}'"
+    return f"<div class='question'{grows}>\n{head}{hint}\n{room}\n{one.answers}\n</div>"
+
+
 HTML = DocumentForm(
     how=MATHML,
     page=_html_page,
@@ -391,6 +392,11 @@ HTML = DocumentForm(
     listed=_html_listed,
     steps=_html_steps,
     new_page="<div class='key'></div>",
+    beside=lambda one, other: f"<div class='task'>\n{one}\n<div>{other}</div>\n</div>",
+    question=_html_question,
+    answers=lambda found: f"<p class='answers'>{''.join(f'<span>{one}</span>' for one in found)}</p>",
+    named="<p class='signed'><span>Name</span><span>Date</span><span>Marks, of {}</span></p>",
+    sheet=lambda pages: "\n".join(f"<div class='page'>\n{one}\n</div>" for one in pages),
 )
 
 _PREAMBLE = r"""\documentclass[10pt,a4paper,fleqn]{article}
@@ -445,6 +451,12 @@ def _latex_page(_: str, body: str) -> str:
     return f"{_PREAMBLE % fonts}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
 
 
+def _latex_question(one: QuestionParts) -> str:
+    head = f"\\textbf{{{one.number}}}\\quad {one.text} \\hfill ({one.marks} marks)"
+    room = one.formulas or f"\\vspace*{{\\stretch{{{one.marks}}}}}"
+    return "\n\n".join(part for part in (head, one.hint, room, one.answers) if part)
+
+
 TEX = DocumentForm(
     how=LATEX,
     page=_latex_page,
@@ -456,6 +468,12 @@ TEX = DocumentForm(
     listed=_latex_listed,
     figure=tikz,
     new_page=r"\newpage",
+    question=_latex_question,
+    answers=lambda found: (
+        r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{one}}}" for one in found) + r"\end{flushleft}"
+    ),
+    named=r"Name \hrulefill\ Date \hrulefill\ Marks \hrulefill\ of {}",
+    sheet="\n\n\\newpage\n\n".join,
 )
 
 
@@ -496,4 +514,8 @@ MARKDOWN = replace(
     listed=_markdown_listed,
     figure=lambda _: "",
     new_page="",
+    question=_plain_question,
+    answers=lambda found: "\n".join(f"- {one}" for one in found),
+    named="Name: ____ Date: ____ Marks: ____ of {}",
+    sheet="\n\n".join,
 )

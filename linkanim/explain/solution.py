@@ -401,8 +401,11 @@ _IN_TIME = (
 )
 _ACCELERATED = ", plus the first coefficient times the acceleration of the input"
 _CHECK = "Check: inserted in the differentiated loops, these values leave a residual of at most {}."
-_CARRIED = "Enough digits are carried to give every result to five significant digits{}."
-_BUT = ", or to fewer where it is small beside others of its kind"
+_CARRIED = (
+    "The numbers given are exact. Results have four significant digits{}; the lines before them carry as "
+    "many as that takes."
+)
+_BUT = ", or fewer where they are small beside others of their kind"
 _AS_INPUT = "The slider is the input itself, so this is given."
 _NO_LOOP = "There is no loop to close: every joint follows directly from the input."
 _SINGULAR = (
@@ -428,6 +431,11 @@ class Solution:
     def loop_chapter(self) -> Chapter:
         """The chapter of the loops, which has the figure."""
         return self.chapters[1]
+
+    @property
+    def positions(self) -> Chapter:
+        """The chapter of the input and of where each joint is."""
+        return self.chapters[2]
 
     @property
     def synthesis_chapter(self) -> Chapter | None:
@@ -494,11 +502,15 @@ def solution(request: PoseRequest) -> Solution:
 def _carried(found: Solution) -> Iterator[Step]:
     """Yield the sentence on the digits of a solution, where it has rates."""
     if not found.singular:
-        fewer = any(
-            result.value.value and abs(result.value.value - true) > _AGREES * abs(true)
-            for result, true in _compared(found)
-        )
+        fewer = any(_has_fewer(result.value, true) for result, true in _compared(found))
         yield Step("", (Words(_CARRIED.format(_BUT if fewer else "")),))
+
+
+def _has_fewer(value: Formula, true: float) -> bool:
+    """Return whether a result has fewer right digits than are told."""
+    places = len(value.shown.partition(".")[2])
+    coarse = abs(value.value - true) > 10.0 ** (1 - TOLD) * abs(true) / 2
+    return value.value != 0 and (coarse or places < decimals(true, TOLD))
 
 
 def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:

@@ -14,6 +14,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
+from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
@@ -103,3 +104,17 @@ class Figured:
     def background(self) -> Colour | None:
         """The colour under everything; None where it is left open."""
         return self.picture.theme.background if self.look.background else None
+
+
+DIMENSIONED = Look(names=2, hud=False, dead_centres=False)
+"""How a scene looks in the figure of its dimensions: nothing in it is of another pose."""
+_LEVEL, _UPRIGHT = (560, 370), (440, 520)
+_HIGH = 1.1
+"""The ratio of height to width above which a scene's figure is upright."""
+
+
+def dimensioned(scene: Scene, phase: float) -> Figured:
+    """Return the figure of a scene's dimensions at a phase, of the scene's own shape."""
+    box = figure(scene).box
+    size = _UPRIGHT if box.high - box.low > _HIGH * (box.right - box.left) else _LEVEL
+    return Figured(scene, size, DIMENSIONED, phase)

@@ -20,7 +20,7 @@ from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper import html
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import MeasuredCurve, MeasuredTable, Pace, compared, curves_of, within_a_turn
-from linkanim.paper.figure import Figured
+from linkanim.paper.figure import DIMENSIONED, Figured
 from linkanim.paper.findings import (
     Instant,
     PlannedChart,
@@ -81,9 +81,6 @@ _BRACES = {ord("{"): None, ord("}"): None}
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
 
-FIGURE = Look(names=2, hud=False, dead_centres=False)
-"""How a scene looks in the figure of its dimensions: nothing in it is of another pose."""
-
 DrawnChart = tuple[tuple[str, ...], FigurePart]
 """A chart's quantities, and how it is shown."""
 
@@ -142,7 +139,7 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        return Figured(self.scene, self._size, FIGURE, still_phase(self.scene))
+        return Figured(self.scene, self._size, DIMENSIONED, still_phase(self.scene))
 
     @cached_property
     def _size(self) -> tuple[int, int]:

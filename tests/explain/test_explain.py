@@ -17,7 +17,7 @@ from tex import needs_tex
 
 import linkanim.explain.documents
 from linkanim.cli import main
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, body_style, document, exercise
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, body_style, document
 from linkanim.explain.formula import LATEX, Formula, Symbol, typeset
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.steps import Given, System, ValueLine
@@ -33,7 +33,6 @@ from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
-from linkanim.units import significant
 
 DIGITS = 5.1e-5
 """Four significant digits, and what is in the last place of a float."""
@@ -194,21 +193,6 @@ def test_at_a_limit_it_says_that_no_rates_follow() -> None:
     assert np.isfinite([result.value.value for result in found.results]).all()
 
 
-@pytest.mark.parametrize("form", [MARKDOWN, TEX, HTML], ids=["Markdown", "LaTeX", "HTML"])
-def test_an_exercise_leaves_its_numbers_open_and_has_a_key_on_a_page_of_its_own(form: DocumentForm) -> None:
-    found = solution(_request("slider-crank", 50.0))
-    sheet, _, key = exercise([found], form).partition(f"Key: {found.title}")
-    lines = [item for chapter in found.chapters for item in chapter.items if isinstance(item, ValueLine)]
-    assert sheet.count(form.how.blank) == len(lines)
-    assert form.new_page in sheet
-    for line in lines:
-        assert line.formula.operation == "leaf" or line.value.shown.lstrip("-") not in sheet
-        own = line.value.value
-        true = found.solved.get(line.value.symbol, own) if line.value.symbol else own
-        assert significant(abs(true), 5) in key
-
-
-# a four-bar, what turns back, what depends on equal lengths, a cylinder, gears
 @pytest.mark.parametrize("name", ["crank-rocker", "double-rocker", "parallelogram", "excavator", "press"])
 def test_a_seed_gives_other_round_lengths_of_the_same_class(name: str) -> None:
     scene = load(name)
@@ -531,16 +515,15 @@ def test_an_accelerated_input_adds_its_share() -> None:
     assert found["B.velocity"] == pytest.approx(speed, rel=1e-5)
 
 
-def test_all_results_stand_at_the_end_but_not_of_an_exercise() -> None:
+def test_all_results_stand_at_the_end() -> None:
     found = solution(PoseRequest(load("crank-rocker"), "angle", 1.0, 10.0))
     assert document(found, MARKDOWN).partition("## All results")[2].count("- $") > 20
-    assert "All results" not in exercise([found], MARKDOWN)
 
 
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_a_result_is_listed_in_the_digits_that_are_right(name: str) -> None:
-    fewer = "fewer where it is small beside others of its kind"
+    fewer = "fewer where they are small beside others of their kind"
     for degrees in (0.0, 73.1, 180.0, 251.7):
         found = solution(_request(name, degrees))
         text = document(found, MARKDOWN)
@@ -555,7 +538,7 @@ def test_a_result_is_listed_in_the_digits_that_are_right(name: str) -> None:
             half = 0.5001 * 10 ** -len(shown.partition(".")[2])
             assert abs(float(shown) - true) <= half, (symbol, true)
             assert abs(float(shown) - lines.get(symbol, true)) <= half, (symbol, lines[symbol])
-            short += float(shown) != 0 and float(shown) != pytest.approx(true, rel=1e-4)
+            short += float(shown) != 0 and float(shown) != pytest.approx(true, rel=6e-4)
         assert not printed
         assert fewer in text or not short
 
@@ -710,30 +693,6 @@ def test_the_half_angle_form_gives_the_angle_found(name: str, degrees: float) ->
         assert abs(math.remainder(angle - math.degrees(math.atan2(y, x)), 360)) < 1e-2
 
 
-def test_an_exercise_of_the_drawing_alone_has_no_formula_and_the_same_key() -> None:
-    found = solution(_request("crank-rocker", 60.0))
-    sheet, _, key = exercise([found], MARKDOWN, "drawing").partition("# Key:")
-    assert r"\cos" not in sheet
-    assert sheet.count(MARKDOWN.how.blank) == sum(result.value.symbol is not None for result in found.results)
-    assert key == exercise([found], MARKDOWN).partition("# Key:")[2]
-
-
-def test_versions_have_letters_other_lengths_and_their_keys(capsys: pytest.CaptureFixture[str]) -> None:
-    asked = ["explain", "crank-rocker", "--angle", "60 deg", "--exercise", "--versions", "4", "--seed", "3"]
-    assert main(asked) == 0
-    text = capsys.readouterr().out
-    heads = [line for line in text.splitlines() if line.startswith("# ")]
-    letters = [line[-1] for line in heads]
-    assert letters == [*"ABCD"] * 2
-    assert [line.startswith("# Key: ") for line in heads] == [False] * 4 + [True] * 4
-    sheets = text.partition("# Key:")[0].split("\n# ")
-    assert len({re.search(r"r_\{3\} = ([\d.]+)", sheet)[1] for sheet in sheets if "r_{3} =" in sheet}) == 4  # type: ignore[index]
-    assert r"\omega_{2} = 2.094\," in text
-    assert main([*asked[:5], "--seed", "4"]) == 0
-    alone = capsys.readouterr().out
-    assert alone.partition("# Key:")[0].partition("\n")[2].strip() in text
-
-
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "said"),
@@ -744,25 +703,6 @@ def test_the_pose_is_one_that_moves_and_its_angle_is_set(
 ) -> None:
     assert main(["explain", name]) == 0
     assert capsys.readouterr().out.splitlines()[2] == said
-
-
-def test_figures_of_versions_share_no_id(tmp_path: Path) -> None:
-    out = tmp_path / "sheet.html"
-    assert (
-        main(
-            ["explain", "crank-rocker", "--angle", "60 deg", "--exercise", "--versions", "2", "-o", str(out)]
-        )
-        == 0
-    )
-    ids = re.findall(r' id=["\']([^"\']*)', out.read_text(encoding="utf-8"))
-    assert len(ids) == len(set(ids))
-
-
-def test_levels_and_versions_are_of_an_exercise(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["explain", "crank-rocker", "--level", "drawing"]) == 2
-    assert "add --exercise" in capsys.readouterr().err
-    assert main(["explain", "crank-rocker", "--exercise", "--versions", "30"]) == 2
-    assert "from 1 to 26" in capsys.readouterr().err
 
 
 def test_factors_of_a_thousandth_are_explained_once() -> None:

@@ -407,9 +407,9 @@ def told(path: Path, file: Path) -> None:
 
 
 def examined(case: Case) -> None:
-    """Write it as an exercise, of either level, in versions."""
+    """Write it as an exercise, of any level, in versions."""
     path, count = case.made(f"exam.{case.rng.choice(FORMS)}"), case.rng.choice(("1", "1", "1", "2", "3"))
-    level = case.rng.choice(("formulas", "drawing"))
+    level = case.rng.choice(("formulas", "hints", "drawing"))
     words = ("--exercise", "--level", level, "--versions", count, "--seed", "2")
     if case.asked("explain", str(case.path), *words, "-o", str(path)) is not None and path.suffix == ".html":
         closed(path.read_text(encoding="utf-8"))

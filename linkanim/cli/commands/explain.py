@@ -14,11 +14,13 @@ from linkanim.cli.letters import tell_of_scene
 from linkanim.cli.options import inputs_of
 from linkanim.cli.progress import along
 from linkanim.errors import BadInput
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
+from linkanim.explain.exercise import LEVELS, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.letters import LATEX
 from linkanim.paper.construction import ConstructionPage
+from linkanim.paper.figure import dimensioned
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
@@ -31,6 +33,8 @@ _CONSTRUCTION = (960, 640)
 """The size of the figure of a construction, in pixels."""
 _MOST_LETTERS = 26
 """The most versions: they are called A to Z."""
+_NEAR = 0.05
+"""The most that joints move where an angle is rounded to tenths of a degree, in longest bars."""
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
@@ -48,9 +52,11 @@ def run(options: Namespace) -> None:
     requests = along(_requests(load(options.scene), options), " versions", options.versions or 1)
     versions = [solution(request) for request in requests]
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
-    form = replace(form, figure=_figure, construction=_construction) if form is HTML else form
+    if form is HTML:
+        drawn = _dimensioned if options.exercise else _figure
+        form = replace(form, figure=drawn, construction=_construction)
     text = (
-        exercise(versions, form, options.level or "formulas")
+        exercise(versions, form, options.level or LEVELS[0])
         if options.exercise
         else document(versions[0], form)
     )
@@ -67,6 +73,12 @@ def _figure(found: Solution) -> str:
     if not found.loops:
         return ""
     drawn = embedded(vectors_svg(found), f"Vector loops of {found.title}")
+    return f"<figure class='vectors'>{drawn}</figure>"
+
+
+def _dimensioned(found: Solution) -> str:
+    figured = dimensioned(found.request.scene, found.phase)
+    drawn = embedded(figured.document(), f"{found.title}: dimensions")
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
@@ -100,9 +112,22 @@ def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
 
 
 def _rounded(request: PoseRequest) -> PoseRequest:
-    """Return a pose whose speed has four digits, and its angle or phase tenths of a degree."""
+    """Return a pose whose speed has four digits, and its angle or phase tenths of a degree.
+
+    Of an input that swings it has an angle and a velocity as they are given of one that turns, if it comes to
+    the same closure there.
+    """
     value = request.value if request.by == "angle" else radians(round(degrees(request.value), 1))
-    return replace(request, value=value, speed=float(f"{request.speed:.4g}"))
+    found = replace(request, value=value, speed=float(f"{request.speed:.4g}"))
+    if not (request.swings and request.scene.linkage.drive.actuator.along is None):
+        return found
+    if not request.scene.linkage.drive.coordinate.is_angle:
+        return found
+    was = found.motion()
+    angle, speed = radians(round(degrees(was.coordinate), 1)), float(f"{was.coordinate_rate:.4g}")
+    stated = replace(found, by="angle", value=angle, speed=speed)
+    far = max(abs(stated.motion().position[name] - at).max() for name, at in was.position.items())
+    return stated if far < _NEAR * request.scene.linkage.longest else found
 
 
 def _pose(scene: Scene, options: Namespace) -> PoseRequest:

@@ -1,0 +1,131 @@
+"""Print an exercise: the figure with what is given, questions with room to work, and the key with the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import accumulate
+from typing import Literal
+
+from linkanim.explain.documents import (
+    DocumentForm,
+    QuestionParts,
+    listed,
+    set_items,
+    short,
+    step_parts,
+    where_words,
+)
+from linkanim.explain.formula import Symbol, typeset
+from linkanim.explain.questions import ExamAnswer, ExamQuestion, given, questions
+from linkanim.explain.solution import TOLD, Solution
+from linkanim.explain.steps import Equation, Given
+
+Level = Literal["drawing", "hints", "formulas"]
+"""The help that an exercise gives: nothing but the drawing, a hint to each question, or its formulas."""
+LEVELS: tuple[Level, ...] = ("drawing", "hints", "formulas")
+
+_FIRST_PAGE = 0.34
+"""The share of the marks on the first of two pages, which has the figure as well."""
+_ONE_PAGE = 8
+"""The most marks of an exercise on one page."""
+_DIGITS = {4: "four", 5: "five"}
+
+
+def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "drawing") -> str:
+    """Return sheets with their numbers left open, each on pages of its own, and then the key of each.
+
+    Where there are several versions, each has a letter, A first.
+    """
+    titles = [f"{one.title}, {chr(65 + n)}" for n, one in enumerate(versions)]
+    titles = titles if len(versions) > 1 else [versions[0].title]
+    asked = [questions(found) for found in versions]
+    parts: list[str] = []
+    for title, found, some in zip(titles, versions, asked, strict=True):
+        parts += [form.new_page] if parts else []
+        parts.append(form.sheet([*_pages(title, found, some, form, level)]))
+    for title, found, some in zip(titles, versions, asked, strict=True):
+        parts += [
+            form.new_page,
+            form.heading(1, f"Key: {title}"),
+            where_words(found, form),
+            *_key(found, some, form),
+        ]
+    return form.page(titles[0], "\n\n".join(part for part in parts if part))
+
+
+def _pages(
+    title: str, found: Solution, asked: Sequence[ExamQuestion], form: DocumentForm, level: Level
+) -> Iterator[str]:
+    """Yield the pages of a sheet: one, or two that share the questions by their marks."""
+    marks = [one.marks for one in asked]
+    shares = [total / sum(marks) for total in accumulate(marks)]
+    first = sum(share <= _FIRST_PAGE for share in shares) or 1
+    first = len(marks) if sum(marks) <= _ONE_PAGE else first
+    written = [_question(n, one, form, level) for n, one in enumerate(asked, 1)]
+    head = [form.heading(1, title), form.named.format(sum(marks)), _where(found, form)]
+    task = form.beside(form.figure(found), "\n\n".join(_given(found, asked, form)))
+    pages = ([*head, task, *written[:first]], written[first:])
+    yield from ("\n\n".join(part for part in page if part) for page in pages if page)
+
+
+def _where(found: Solution, form: DocumentForm) -> str:
+    """Return where the linkage is, and the rules for all numbers of the sheet, told once."""
+    pins = [joint.name for joint in found.request.scene.linkage.joints if found.places[joint.name] == 0]
+    origin = f" from \x02{pins[0]}\x03" if pins else ""
+    steady = not (found.request.acceleration or found.request.swings)
+    return form.paragraph(
+        form.text(
+            f"x points to the right and y upwards{origin}; angles are counted counterclockwise from the x "
+            "axis, and so are angular velocities. The numbers given are exact; give results in "
+            f"{_DIGITS[TOLD]} significant digits."
+            f"{' The velocity of the input is constant.' * steady}"
+        )
+    )
+
+
+def _given(found: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
+    """Yield what is given besides the figure."""
+    items = given(found, asked)
+    stated = {item.value.symbol: item for item in items if isinstance(item, Given)}
+    yield from set_items([*stated.values()], form, blank=False)
+    if related := [item for item in items if isinstance(item, Equation)]:
+        yield from (form.paragraph(_equation(one, form)) for one in related)
+
+
+def _equation(one: Equation, form: DocumentForm) -> str:
+    sides = (typeset(side, form.how) for side in (one.left, one.right))
+    return form.inline(form.how.infix("=", *sides))
+
+
+def _question(number: int, one: ExamQuestion, form: DocumentForm, level: Level) -> str:
+    formulas = ""
+    if level == "formulas":
+        formulas = form.steps(["\n\n".join(step_parts(step, form, blank=True)) for step in one.way])
+    hint = form.text(f"Hint: {one.hint}") if level == "hints" and one.hint else ""
+    # where the formulas stand they end in the answers
+    blanks = [] if formulas else [_open(answer, form) for answer in one.answers]
+    answers = form.answers(blanks) if blanks else ""
+    return form.question(QuestionParts(number, form.text(one.text), one.marks, hint, answers, formulas))
+
+
+def _open(answer: ExamAnswer, form: DocumentForm) -> str:
+    """Return an answer with its number left open."""
+    blank = form.how.blank + form.how.unit(answer.unit)
+    return form.inline(form.how.infix("=", typeset(answer.value, form.how), blank))
+
+
+def _key(found: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
+    """Yield each question's answers, and below them the way that leads there."""
+    solved = found.solved
+    for n, one in enumerate(asked, 1):
+        yield form.heading(2, f"{n} {one.text}")
+        if one.answers:
+            yield form.listed([_solved(answer, solved, form) for answer in one.answers])
+        if found.made and one.way == getattr(found.synthesis_chapter, "steps", None):
+            yield form.construction(found)
+        if one.way:
+            yield form.steps(["\n\n".join(step_parts(step, form, blank=False)) for step in one.way])
+
+
+def _solved(answer: ExamAnswer, solved: Mapping[Symbol, float], form: DocumentForm) -> tuple[str, str]:
+    return listed(short(answer.value, solved), answer.unit, "", form)
