@@ -171,7 +171,7 @@ class ErrorChart:
     @property
     def title(self) -> str:
         """What it shows, in words."""
-        return f"Structural error of {self.shown.task.function.words}, {self.shown.task.generator.name}"
+        return f"Structural error of {self.shown.task.function.words}, {self.shown.task.kind.name}"
 
     @property
     def words(self) -> str:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import ast
 import math
 import operator
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
@@ -27,7 +26,7 @@ from linkanim.intake import meant
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
-from linkanim.synthesis.linkages import Real, refuse_count
+from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, refuse_count
 from linkanim.units import shown
 
 # The function that a linkage is to generate: an expression in x as one types it, or a table.
@@ -292,7 +291,7 @@ class FunctionTask:
     """
 
     function: GivenFunction
-    generator: Generator
+    kind: LinkageKind
     points: int
     input_range: float | None = None
     input_start: float | None = None
@@ -307,15 +306,15 @@ class FunctionTask:
 
     @property
     def length(self) -> float:
-        """The generator's unit of length, in the scene's unit."""
-        if self.generator.turning:
+        """The unit of length of its linkages, in the scene's unit."""
+        if self.kind.turning:
             return GROUND
         return STROKE if self.output_range is None else abs(self.output_range)
 
     @property
     def scales(self) -> tuple[float, float]:
-        """The generator's units of input and output."""
-        return 1.0, 1.0 if self.generator.turning else self.length
+        """The units of input and output."""
+        return 1.0, 1.0 if self.kind.turning else self.length
 
 
 @frozen(eq=False)
@@ -353,12 +352,12 @@ class Generated:
     @property
     def output_body(self) -> str:
         """The body on which y is read."""
-        return self.task.generator.output
+        return self.task.kind.output
 
     @property
     def size(self) -> float:
         """The longest link."""
-        return max(self.parameters[name] for name in self.task.generator.links)
+        return max(self.parameters[name] for name in self.task.kind.links)
 
 
 class Designs(NamedTuple):
@@ -374,238 +373,34 @@ class Designs(NamedTuple):
         return Designs(*(part[chosen] for part in self))
 
 
-class Generator(ABC):
-    """A kind of linkage that generates functions, by its parameters at the first x.
-
-    A row begins with the input link's length, and ends with the places of input and output at the first x.
-    """
-
-    name: str
-    parameters: tuple[str, ...]
-    links: tuple[str, ...]
-    output: str
-    reading: str
-    """The quantity of a motion on which y is read."""
-    turning: bool
-    """Whether the output is an angle."""
-    in_line: float
-    """The crank's angle (rad), up to half turns, at which the transmission angle has an extreme."""
-
-    @abstractmethod
-    def lengths(self, rows: Real) -> Real:
-        """Return the lengths of `links` (k, m)."""
-
-    @abstractmethod
-    def poses(self, inputs: Real, outputs: Real) -> Poses:
-        """Return the input link's poses as seen from the output, by both movements since the first x."""
-
-    @abstractmethod
-    def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
-        """Return the rows of couplers (k,) for such poses; `first` is the movement at the first pose."""
-
-    @abstractmethod
-    def through(self, inputs: Real, outputs: Real) -> Real:
-        """Return the rows (k, p) through three places of input and output (k, 3), by a linear equation."""
-
-    @abstractmethod
-    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
-        """Return the movement of the output (k, n) by that of the input, and cos μ; NaN if it cannot close.
-
-        An angle is given in the turn in which it is nearest to `near`.
-        """
-
-    @abstractmethod
-    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
-        """Return the closures +1 or -1 (k, n) at movements of input and output that the linkage passes."""
-
-    @abstractmethod
-    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
-        """Return the slopes (n, p) of the outputs by the parameters, relative to the scale's start."""
-
-    @abstractmethod
-    def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
-        """Return the scene's tables [ground], [joints] and [bodies]."""
+def _lengths(kind: LinkageKind, rows: Real) -> Real:
+    """Return the lengths of the links (k, m), a four-bar's ground first."""
+    links = rows[:, : len(kind.links)]
+    return np.column_stack([np.ones(len(rows)), links]) if kind.turning else links
 
 
-class FourBarGenerator(Generator):
-    """Crank and rocker on a ground of length 1: y is read on the rocker's angle."""
-
-    name = "four-bar"
-    parameters = ("crank", "coupler", "rocker", "input_start", "output_start")
-    links = ("ground", "crank", "coupler", "rocker")
-    output = "rocker"
-    reading, turning, in_line = "angle", True, 0.0
-
-    def lengths(self, rows: Real) -> Real:
-        """Return ground, crank, coupler and rocker."""
-        return np.column_stack([np.ones(len(rows)), rows[:, :3]])
-
-    def poses(self, inputs: Real, outputs: Real) -> Poses:
-        """Return the crank's poses as seen from the rocker."""
-        turned = inputs - outputs
-        return Poses(-np.exp(-1j * outputs), turned - math.tau * np.round((turned - turned[0]) / math.tau))
-
-    def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
-        """Return the rows of couplers between both, without that of length 1 between the pivots."""
-        pin = (bars.circle - poses.origins[0]) * np.exp(1j * (first[1] - first[0]))
-        lengths = np.abs(pin), np.abs(bars.circle - bars.centre), np.abs(bars.centre)
-        rows = np.stack([*lengths, np.angle(pin), np.angle(bars.centre)], axis=1)
-        return np.asarray(rows[(lengths[0] > _SAME) & (lengths[2] > _SAME)])
-
-    def through(self, inputs: Real, outputs: Real) -> Real:
-        """Solve Freudenstein's equation; a negative length is a link that points the other way."""
-        cosines = np.stack([np.cos(outputs), -np.cos(inputs), np.ones_like(inputs)], axis=-1)
-        solution = _solved(cosines, np.cos(inputs - outputs))
-        with np.errstate(all="ignore"):
-            crank, rocker = 1 / solution[:, 0], 1 / solution[:, 1]
-            coupler = np.sqrt(1 + crank**2 + rocker**2 - 2 * crank * rocker * solution[:, 2])
-        return np.asarray(np.stack([crank, coupler, rocker], axis=1))
-
-    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
-        """Close the loop by its signed root."""
-        crank, coupler, rocker, first, last = (part[:, None] for part in rows.T)
-        diagonal = 1 - crank * np.exp(1j * (first + inputs))
-        square = np.abs(diagonal) ** 2
-        with np.errstate(all="ignore"):
-            root = np.sqrt(((coupler + rocker) ** 2 - square) * (square - (coupler - rocker) ** 2))
-            # B as seen from O4, where the root has the other sign
-            arm = -diagonal * (
-                square + (rocker - coupler) * (rocker + coupler) - 1j * closure[:, None] * root
-            )
-            turned = np.angle(arm * np.exp(-1j * last))
-            cosine = (coupler**2 + rocker**2 - square) / (2 * coupler * rocker)
-        return turned + math.tau * np.round((near - turned) / math.tau), cosine
-
-    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
-        """Return on which side of A -> O4 the pin B lies."""
-        crank, _, rocker, first, last = (part[:, None] for part in rows.T)
-        pin = crank * np.exp(1j * (first + inputs))
-        end = 1 + rocker * np.exp(1j * (last + outputs))
-        return np.where((np.conj(1 - pin) * (end - pin)).imag > 0, 1.0, -1.0)
-
-    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
-        """Differentiate |1 + r₄e^(iψ) - r₂e^(iθ)|² = r₃²."""
-        crank, coupler, rocker, first, last = row
-        theta, psi = first + inputs, last + outputs
-        across, along = np.sin(psi - theta), np.cos(psi - theta)
-        by_psi = -rocker * np.sin(psi) + crank * rocker * across
-        by = (
-            crank - np.cos(theta) - rocker * along,
-            np.full_like(psi, -coupler),
-            rocker + np.cos(psi) - crank * along,
-            crank * np.sin(theta) - crank * rocker * across,
-        )
-        return np.stack([*(-part / by_psi for part in by), -np.ones_like(psi)], axis=-1)
-
-    def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
-        """Return the four-bar, its ground along x."""
-        crank, coupler, rocker = (float(length) for length in row[:3] * scale)
-        return {
-            "ground": {"O2": [0.0, 0.0], "O4": [scale, 0.0]},
-            "joints": {
-                "A": {"crank": "O2", "length": crank},
-                "B": {
-                    "from": ["A", "O4"],
-                    "length": [coupler, rocker],
-                    "side": "left" if closure > 0 else "right",
-                },
-            },
-            "bodies": {
-                "crank": {"joints": ["O2", "A"]},
-                "coupler": {"joints": ["A", "B"]},
-                "rocker": {"joints": ["O4", "B"]},
-            },
-        }
-
-
-class SliderGenerator(Generator):
-    """Crank, rod and slider: y is read on the slider's travel, whose range is of length 1."""
-
-    name = "slider-crank"
-    parameters = ("crank", "rod", "offset", "input_start", "output_start")
-    links = ("crank", "rod")
-    output = "slider"
-    reading, turning, in_line = "travel", False, math.pi / 2
-
-    def lengths(self, rows: Real) -> Real:
-        """Return crank and rod."""
-        return np.asarray(rows[:, :2])
-
-    def poses(self, inputs: Real, outputs: Real) -> Poses:
-        """Return the crank's poses as seen from the slider."""
+def _poses(kind: LinkageKind, inputs: Real, outputs: Real) -> Poses:
+    """Return the crank's poses as seen from the output, by both movements since the first x."""
+    if not kind.turning:
         return Poses(-outputs.astype(np.complex128), inputs)
-
-    def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
-        """Return the rows of rods between crank and slider."""
-        pin = (bars.circle - poses.origins[0]) * np.exp(-1j * first[0])
-        rod = np.abs(bars.circle - bars.centre)
-        rows = np.stack([np.abs(pin), rod, bars.centre.imag, np.angle(pin), bars.centre.real], axis=1)
-        return rows[rows[:, 0] > _SAME]
-
-    def through(self, inputs: Real, outputs: Real) -> Real:
-        """Solve s² = 2r s cos θ + 2re sin θ + (l² - r² - e²), linear in three numbers of the lengths."""
-        parts = np.stack([outputs * np.cos(inputs), np.sin(inputs), np.ones_like(inputs)], axis=-1)
-        solution = _solved(parts, outputs**2)
-        with np.errstate(all="ignore"):
-            crank, offset = solution[:, 0] / 2, solution[:, 1] / solution[:, 0]
-            rod = np.sqrt(solution[:, 2] + crank**2 + offset**2)
-        return np.stack([crank, rod, offset], axis=1)
-
-    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
-        """Close the rod on the line."""
-        crank, rod, offset, first, last = (part[:, None] for part in rows.T)
-        rise = crank * np.sin(first + inputs) - offset
-        with np.errstate(all="ignore"):
-            root = np.sqrt((rod - rise) * (rod + rise))
-            return crank * np.cos(first + inputs) + closure[:, None] * root - last, rise / rod
-
-    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
-        """Return whether the slider is ahead of the crank's pin, or behind."""
-        crank, _, _, first, last = (part[:, None] for part in rows.T)
-        return np.where(last + outputs > crank * np.cos(first + inputs), 1.0, -1.0)
-
-    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
-        """Differentiate (s - r cos θ)² + (e - r sin θ)² = l²."""
-        crank, rod, offset, first, last = row
-        cosine, sine = np.cos(first + inputs), np.sin(first + inputs)
-        along, across = last + outputs - crank * cosine, offset - crank * sine
-        by = (
-            -cosine * along - sine * across,
-            np.full_like(along, -rod),
-            across,
-            crank * (sine * along - cosine * across),
-        )
-        return np.stack([*(-part / along for part in by), -np.ones_like(along)], axis=-1)
-
-    def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
-        """Return the slider-crank, its line along x."""
-        crank, rod, offset = (float(length) for length in row[:3] * scale)
-        line = {"through": "O2", "angle": "0 deg", "offset": offset}
-        side = "forward" if closure > 0 else "backward"
-        return {
-            "ground": {"O2": [0.0, 0.0]},
-            "joints": {
-                "A": {"crank": "O2", "length": crank},
-                "B": {"from": "A", "length": rod, "line": line, "side": side},
-            },
-            "bodies": {
-                "crank": {"joints": ["O2", "A"]},
-                "rod": {"joints": ["A", "B"]},
-                "slider": {"slider": "B"},
-            },
-        }
+    turned = inputs - outputs
+    return Poses(-np.exp(-1j * outputs), turned - math.tau * np.round((turned - turned[0]) / math.tau))
 
 
-GENERATORS: Mapping[str, Generator] = {one.name: one for one in (FourBarGenerator(), SliderGenerator())}
-"""The kinds by what `--kind` calls them."""
+def _rows(kind: LinkageKind, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
+    """Return the rows of couplers (k,) for such poses; `first` is the movement at the first pose.
 
-
-def _solved(matrices: Real, right: Real) -> Real:
-    """Return the solutions of linear equations (k, 3, 3), NaN where there is none."""
-    sound = np.abs(np.linalg.det(matrices)) > 1e-12
-    solutions = np.full(right.shape, np.nan)
-    solutions[sound] = np.linalg.solve(matrices[sound], right[sound][..., None])[..., 0]
-    return solutions
+    The bar of length 1 between a four-bar's pivots is left out.
+    """
+    turn = first[1] - first[0] if kind.turning else -first[0]
+    pin = (bars.circle - poses.origins[0]) * np.exp(1j * turn)
+    crank, coupler = np.abs(pin), np.abs(bars.circle - bars.centre)
+    if kind.turning:
+        rocker = np.abs(bars.centre)
+        rows = np.stack([crank, coupler, rocker, np.angle(pin), np.angle(bars.centre)], axis=1)
+        return np.asarray(rows[(crank > _SAME) & (rocker > _SAME)])
+    rows = np.stack([crank, coupler, bars.centre.imag, np.angle(pin), bars.centre.real], axis=1)
+    return np.asarray(rows[crank > _SAME])
 
 
 def function(
@@ -649,8 +444,8 @@ def task_of(
     radians, those of a slider in `unit`; negative ranges run backwards. With `level` False the precision
     points keep Chebyshev's spacing.
     """
-    if kind not in GENERATORS:
-        raise BadInput(f"kind={shown(kind)}: take {' or '.join(GENERATORS)}")
+    if kind not in KINDS:
+        raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
     units.metre(unit)
     if isinstance(given, str):
         if first is None or last is None:
@@ -678,7 +473,7 @@ def task_of(
         if start is not None and not can_be_computed(start):
             raise BadInput(f"a scale begins at {start!r}; give {NUMBERS}")
     return FunctionTask(
-        target, GENERATORS[kind], points or most, input_range, input_start, output_range, output_start,
+        target, KINDS[kind], points or most, input_range, input_start, output_range, output_start,
         level, points is None, unit, name, source,
     )  # fmt: skip
 
@@ -695,7 +490,7 @@ def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
     if not linkages:
         given = task.input_start is not None or task.output_start is not None
         raise BadInput(
-            f"no {task.generator.name} was found that follows {task.function.words} over the whole range on "
+            f"no {task.kind.name} was found that follows {task.function.words} over the whole range on "
             f"one branch; {'leave out where a scale begins, ' if given else ''}take other ranges, another "
             "number of precision points, or a shorter piece of it"
         )
@@ -736,7 +531,7 @@ def _different(task: FunctionTask, designs: list[_Design]) -> list[_Design]:
     """Return linkages, the best first, each different from all earlier ones."""
     different: list[tuple[_Design, Real]] = []
     for one in sorted(designs, key=lambda design: _merit(task, design)):
-        lengths = task.generator.lengths(one.row[None])[0]
+        lengths = _lengths(task.kind, one.row[None])[0]
         if not any(
             np.abs(lengths - others).max() <= _ALIKE * max(lengths.max(), others.max())
             and abs(one.input_range - other.input_range) < _SAME
@@ -748,7 +543,7 @@ def _different(task: FunctionTask, designs: list[_Design]) -> list[_Design]:
 
 def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
     """Yield the ranges of both scales that are to be tried."""
-    sliding = isinstance(task.generator, SliderGenerator)
+    sliding = not task.kind.turning
     for wide in [task.input_range] if task.input_range else _FREE:
         if task.output_range is not None:
             yield wide, math.copysign(1.0, task.output_range) if sliding else task.output_range
@@ -768,8 +563,7 @@ def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> li
     except BadInput:  # for equal poses: the function returns to an earlier value
         return []
     rows = rows[np.isfinite(rows).all(axis=1) & (rows[:, :2] > 0).all(axis=1)]
-    generator = task.generator
-    closures = generator.closures(rows, inputs, outputs)
+    closures = task.kind.closures(rows, inputs, outputs)
     rows, closures = (part[(closures == closures[:, :1]).all(axis=1)] for part in (rows, closures))
     designs = [
         _Design(row, float(closure), *ranges, points)
@@ -782,7 +576,7 @@ def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> li
 
 def _rows_of_three(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
     """Return the rows through three points, for the starts that are given or all round."""
-    sliding = isinstance(task.generator, SliderGenerator)
+    sliding = not task.kind.turning
     given = task.input_start, task.output_start
     around = np.linspace(0.0, math.pi, _TRIED, endpoint=False)
     free = around, np.linspace(-_FARTHEST, _FARTHEST, 2 * _TRIED) if sliding else around
@@ -791,9 +585,7 @@ def _rows_of_three(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
         for choice, start, scale in zip(free, given, task.scales, strict=True)
     ]
     first, last = (part.ravel() for part in np.meshgrid(*starts, indexing="ij"))
-    rows = np.column_stack(
-        [task.generator.through(first[:, None] + inputs, last[:, None] + outputs), first, last]
-    )
+    rows = np.column_stack([task.kind.through(first[:, None] + inputs, last[:, None] + outputs), first, last])
     # a negative link points the other way, which one whose start is given cannot
     for length, start, wanted in ((0, 3, task.input_start), (2, 4, task.output_start))[: 2 - sliding]:
         negative = rows[:, length] < 0
@@ -804,12 +596,12 @@ def _rows_of_three(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
 
 def _rows_of_more(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
     """Return the rows through four points or five, which are couplers between poses of the input link."""
-    poses, first = task.generator.poses(inputs, outputs), (float(inputs[0]), float(outputs[0]))
+    poses, first = _poses(task.kind, inputs, outputs), (float(inputs[0]), float(outputs[0]))
     if poses.count == MOST_POINTS:
-        return task.generator.rows(poses, burmester_points(poses), first)
+        return _rows(task.kind, poses, burmester_points(poses), first)
     curve = CentreCurve(poses)
     if task.input_start is None and task.output_start is None:
-        return task.generator.rows(poses, curve.bars(_CURVE), first)
+        return _rows(task.kind, poses, curve.bars(_CURVE), first)
     return np.concatenate(
         [_at_start(task, poses, curve, circuit, first) for circuit in range(len(curve.circuits))]
     )
@@ -830,14 +622,14 @@ def _at_start(
         sound = np.isfinite(bars.circle)
         with np.errstate(all="ignore"):
             made = [
-                task.generator.rows(poses, polished(poses, bars.take(np.array([n]))), first)
+                _rows(task.kind, poses, polished(poses, bars.take(np.array([n]))), first)
                 for n in np.flatnonzero(sound)
             ]
         for n, row in zip(np.flatnonzero(sound), made, strict=True):
             solved[n] = row[0] if len(row) else np.nan
         return solved
 
-    sliding = column == 4 and isinstance(task.generator, SliderGenerator)
+    sliding = column == 4 and not task.kind.turning
 
     def off(solved: Real) -> Real:
         return solved[:, column] - start if sliding else np.sin(solved[:, column] - start)
@@ -854,7 +646,7 @@ def _generated(
     """Return the structural errors (k, n) at x in y's unit, and cos μ."""
     function = task.function
     wanted = function.y_share(x) * ranges[1]
-    outputs, cosine = task.generator.outputs(rows, closure, function.x_share(x) * ranges[0], wanted)
+    outputs, cosine = task.kind.outputs(rows, closure, function.x_share(x) * ranges[0], wanted)
     return (outputs - wanted) * (function.span / ranges[1]), cosine
 
 
@@ -867,7 +659,7 @@ def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, 
         sine = np.sqrt(1 - np.abs(cosine).max(axis=1) ** 2)
         merits = np.log(worst + _FINEST) + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
         # a slider's stroke, of length 1, counts as a link; of a four-bar that is the ground
-        lengths = np.column_stack([np.ones(len(rows)), task.generator.lengths(rows)])
+        lengths = np.column_stack([np.ones(len(rows)), _lengths(task.kind, rows)])
         merits[lengths.max(axis=1) > _SLIMMEST * lengths.min(axis=1)] = np.inf
     return np.where(np.isfinite(merits), merits, np.inf)
 
@@ -992,7 +784,7 @@ def _solved_for(
     function = task.function
     unit = function.span / design.output_range
     reached = error / unit + function.y_share(places) * design.output_range
-    slopes = task.generator.slopes(design.row, function.x_share(places) * design.input_range, reached)
+    slopes = task.kind.slopes(design.row, function.x_share(places) * design.input_range, reached)
     matrix = np.column_stack([slopes[:, columns] * unit, more])
     if not np.isfinite(matrix).all() or not np.isfinite(error).all():
         return None
@@ -1022,12 +814,13 @@ def _smoothed(task: FunctionTask, design: _Design, columns: list[int]) -> _Desig
 
 def checked(task: FunctionTask, design: _Design) -> Generated | None:
     """Return a linkage with rounded lengths as the solver runs it; None where it cannot cover the range."""
-    generator, function, length = task.generator, task.function, task.length
+    kind, function, length = task.kind, task.function, task.length
     row = design.row.copy()
     row[:3] = np.round(row[:3] * length, _DIGITS) / length
+    whole = (kind.standard(row[None])[0] * length).tolist()
     start, wide = _in_turn(float(row[3]) % math.tau, task.input_start), design.input_range
     document = {
-        "title": f"{generator.name.capitalize()} for {function.words}",
+        "title": f"{kind.name.capitalize()} for {function.words}",
         "source": task.source,
         "length_unit": task.unit,
         "drive": {
@@ -1035,7 +828,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
             "speed": "20 rpm" if wide > 0 else "-20 rpm",
             "start": f"{math.degrees(start)!r} deg",
         },
-        **generator.document(row, design.closure, length),
+        **kind.document(dict(zip(kind.parameters, whole, strict=True)), design.closure, traced=False),
         "trace": {"joints": []},
     }
     scale = task.scales[1]
@@ -1053,8 +846,8 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
             return None
         extremes = _extremes(errors, x)
         worst = errors(extremes)
-        if generator.turning:
-            seen = float(scene.solve(angle=start, derivatives=0).angle[generator.output])
+        if kind.turning:
+            seen = float(scene.solve(angle=start, derivatives=0).angle[kind.output])
             first = _in_turn(first, seen if task.output_start is None else task.output_start)
         points = _zeros(errors, x, sampled, 5) if task.level else function.chebyshev(design.points)
         stated = {"function": _stated(task, points, (start, wide, first, high))}
@@ -1063,9 +856,8 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         return None
     return Generated(
         scene=scene,
-        parameters=dict(
-            zip(generator.links, map(float, generator.lengths(row[None])[0] * length), strict=True)
-        ),
+        parameters=({"ground": length} if kind.turning else {})
+        | dict(zip(kind.links, map(float, row * length), strict=False)),
         error=float(np.abs(worst).max()),
         extremes=tuple(zip(extremes.tolist(), worst.tolist(), strict=True)),
         points=points,
@@ -1089,7 +881,7 @@ def _stated(task: FunctionTask, points: Real, scales: tuple[float, float, float,
     start, wide, first, high = scales
     inputs = np.degrees(start + wide * task.function.x_share(points)).tolist()
     outputs = first + high * task.function.y_share(points)
-    turning = task.generator.turning
+    turning = task.kind.turning
     places = (np.degrees(outputs) if turning else outputs).tolist()
     return {
         "words": task.function.words,
@@ -1104,12 +896,10 @@ def _solved_errors(
     scene: Scene, task: FunctionTask, scales: tuple[float, float, float, float], x: Real
 ) -> Real:
     """Return the structural errors at x as the solver has them, by start and range of input and output."""
-    function, generator, (start, wide, first, high) = task.function, task.generator, scales
+    function, kind, (start, wide, first, high) = task.function, task.kind, scales
     motion = scene.solve(angle=start + wide * function.x_share(x), derivatives=0)
-    off = (
-        np.asarray(getattr(motion, generator.reading)[generator.output]) - first - high * function.y_share(x)
-    )
-    if generator.turning:
+    off = np.asarray(getattr(motion, kind.reading)[kind.output]) - first - high * function.y_share(x)
+    if kind.turning:
         off = np.remainder(off + math.pi, math.tau) - math.pi
     return np.asarray(off * (function.span / high))
 
@@ -1132,10 +922,10 @@ def _zeros(errors: Callable[[Real], Real], x: Real, values: Real, at_once: int) 
 def _least_transmission(task: FunctionTask, design: _Design) -> float:
     """Return the least transmission angle over the range: at an end, or where the crank is `in_line`."""
     first, wide = float(design.row[3]), design.input_range
-    lines = task.generator.in_line + math.pi * np.arange(-6.0, 7.0)
+    lines = task.kind.in_line + math.pi * np.arange(-6.0, 7.0)
     shares = np.concatenate([[0.0, 1.0], (lines - first) / wide])
     shares = shares[(shares >= 0) & (shares <= 1)]
     near = np.zeros(len(shares))
-    cosine = task.generator.outputs(design.row[None], np.array([design.closure]), shares * wide, near)[1]
+    cosine = task.kind.outputs(design.row[None], np.array([design.closure]), shares * wide, near)[1]
     worst = min(float(np.abs(cosine).max()), 1.0)
     return math.atan2(math.sqrt((1 - worst) * (1 + worst)), worst)

@@ -68,6 +68,14 @@ class LinkageKind(ABC):
     """What the closures +1 and -1 are called in a scene."""
     mirror: tuple[float, ...]
     """The factors of the parameters, and last of the closure, that mirror the linkage in the x axis."""
+    output: str
+    """The body on which a function's y is read."""
+    reading: str
+    """The quantity of a motion that is read there."""
+    turning: bool
+    """Whether that is an angle."""
+    in_line: float
+    """The crank's angle (rad) in a `standard` linkage, up to half turns, at which cos μ has an extreme."""
 
     @abstractmethod
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
@@ -93,19 +101,55 @@ class LinkageKind(ABC):
     def link_lengths(self, rows: Real) -> Real:
         """Return the lengths of all links (B, m), with the coupler point's arms to A and, last, to B."""
 
-    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
-        """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
+    # A linkage that generates a function has a row (crank, coupler, rocker, input start, output start) or
+    # (crank, rod, offset, input start, output start): its ground, or the slider's range, is of length 1.
+
+    @abstractmethod
+    def standard(self, rows: Real) -> Real:
+        """Return a function's linkages by all parameters: O2 at the origin, ground or line along x."""
+
+    @abstractmethod
+    def through(self, inputs: Real, outputs: Real) -> Real:
+        """Return the lengths (k, 3) by three places of input and output (k, 3), from a linear equation."""
+
+    @abstractmethod
+    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
+        """Return the closures +1 or -1 (k, n) at movements of input and output that the linkage passes."""
+
+    @abstractmethod
+    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
+        """Return the slopes (n, p) of a function's outputs by its parameters, from the start of its scale."""
+
+    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
+        """Return the movement of the output (k, n) by that of the input, and cos μ; NaN if it cannot close.
+
+        An angle is given in the turn in which it is nearest to `near`.
+        """
+        whole, first, last = self.standard(rows), rows[:, 3:4], rows[:, 4:5]
+        pin, _ = _pins(whole, first + inputs)
+        direction, normal, _ = self.close(whole, closure[:, None], pin)
+        cosine = _dot(direction, normal) / np.abs(normal)
+        if not self.turning:
+            return (pin + whole[:, 3:4] * direction).real - last, cosine
+        turned = np.angle(normal * np.exp(-1j * last))
+        return turned + math.tau * np.round((near - turned) / math.tau), cosine
+
+    def document(
+        self, row: Mapping[str, float], closure: float, *, traced: bool = True
+    ) -> dict[str, dict[str, Any]]:
+        """Return the tables [ground], [joints] and [bodies] of a scene with that linkage, P if `traced`."""
         pins, held, body = self.closing(row)
+        point = {"P": {"on": ["A", "B"], "at": [row["along"], row["across"]]}} if traced else {}
         return {
             "ground": {"O2": [row["x"], row["y"]], **pins},
             "joints": {
                 "A": {"crank": "O2", "length": row["crank"]},
                 "B": {**held, "side": self.sides[closure < 0]},
-                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
+                **point,
             },
             "bodies": {
                 "crank": {"joints": ["O2", "A"]},
-                self.links[1]: {"joints": ["A", "B", "P"]},
+                self.links[1]: {"joints": ["A", "B", *point]},
                 **body,
             },
         }
@@ -189,6 +233,7 @@ class FourBarKind(LinkageKind):
     pins = (0, 6)
     sides = ("left", "right")
     mirror = (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0)
+    output, reading, turning, in_line = "rocker", "angle", True, 0.0
 
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
         """Close two bars on the pin and the pivot O4, by the signed root of both factors."""
@@ -239,6 +284,43 @@ class FourBarKind(LinkageKind):
             {"rocker": {"joints": ["O4", "B"]}},
         )
 
+    def standard(self, rows: Real) -> Real:
+        """Return four-bars whose ground is of length 1."""
+        crank, coupler, rocker = rows[:, :3].T
+        nothing = np.zeros(len(rows))
+        parts = nothing, nothing, crank, coupler, nothing, nothing, nothing + 1.0, nothing, rocker
+        return np.stack(parts, axis=1)
+
+    def through(self, inputs: Real, outputs: Real) -> Real:
+        """Solve Freudenstein's equation; a negative length is a link that points the other way."""
+        cosines = np.stack([np.cos(outputs), -np.cos(inputs), np.ones_like(inputs)], axis=-1)
+        solution = _solved(cosines, np.cos(inputs - outputs))
+        with np.errstate(all="ignore"):
+            crank, rocker = 1 / solution[:, 0], 1 / solution[:, 1]
+            coupler = np.sqrt(1 + crank**2 + rocker**2 - 2 * crank * rocker * solution[:, 2])
+        return np.asarray(np.stack([crank, coupler, rocker], axis=1))
+
+    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
+        """Return on which side of A -> O4 the pin B lies."""
+        crank, _, rocker, first, last = (part[:, None] for part in rows.T)
+        pin = crank * np.exp(1j * (first + inputs))
+        end = 1 + rocker * np.exp(1j * (last + outputs))
+        return np.where((np.conj(1 - pin) * (end - pin)).imag > 0, 1.0, -1.0)
+
+    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
+        """Differentiate |1 + r₄e^(iψ) - r₂e^(iθ)|² = r₃²."""
+        crank, coupler, rocker, first, last = row
+        theta, psi = first + inputs, last + outputs
+        across, along = np.sin(psi - theta), np.cos(psi - theta)
+        by_psi = -rocker * np.sin(psi) + crank * rocker * across
+        by = (
+            crank - np.cos(theta) - rocker * along,
+            np.full_like(psi, -coupler),
+            rocker + np.cos(psi) - crank * along,
+            crank * np.sin(theta) - crank * rocker * across,
+        )
+        return np.stack([*(-part / by_psi for part in by), -np.ones_like(psi)], axis=-1)
+
 
 class SliderCrankKind(LinkageKind):
     """Crank and rod, the rod's end on a line at an offset from O2, with a point of the rod."""
@@ -250,6 +332,7 @@ class SliderCrankKind(LinkageKind):
     carried = True
     sides = ("forward", "backward")
     mirror = (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, 1.0)
+    output, reading, turning, in_line = "slider", "travel", False, math.pi / 2
 
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
         """Close a rod on the pin and the line."""
@@ -291,8 +374,50 @@ class SliderCrankKind(LinkageKind):
 
     def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
         """Return no further pin, the rod that ends on a line, and the slider."""
-        line = {"through": "O2", "angle": f"{row['line_angle']!r} rad", "offset": row["offset"]}
+        angle = f"{row['line_angle']!r} rad" if row["line_angle"] else "0 deg"
+        line = {"through": "O2", "angle": angle, "offset": row["offset"]}
         return {}, {"from": "A", "length": row["rod"], "line": line}, {"slider": {"slider": "B"}}
+
+    def standard(self, rows: Real) -> Real:
+        """Return slider-cranks."""
+        crank, rod, offset = rows[:, :3].T
+        nothing = np.zeros(len(rows))
+        return np.stack([nothing, nothing, crank, rod, nothing, nothing, nothing, offset], axis=1)
+
+    def through(self, inputs: Real, outputs: Real) -> Real:
+        """Solve s² = 2r s cos θ + 2re sin θ + (l² - r² - e²), linear in three numbers of the lengths."""
+        parts = np.stack([outputs * np.cos(inputs), np.sin(inputs), np.ones_like(inputs)], axis=-1)
+        solution = _solved(parts, outputs**2)
+        with np.errstate(all="ignore"):
+            crank, offset = solution[:, 0] / 2, solution[:, 1] / solution[:, 0]
+            rod = np.sqrt(solution[:, 2] + crank**2 + offset**2)
+        return np.stack([crank, rod, offset], axis=1)
+
+    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
+        """Return whether the slider is ahead of the crank's pin, or behind."""
+        crank, _, _, first, last = (part[:, None] for part in rows.T)
+        return np.where(last + outputs > crank * np.cos(first + inputs), 1.0, -1.0)
+
+    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
+        """Differentiate (s - r cos θ)² + (e - r sin θ)² = l²."""
+        crank, rod, offset, first, last = row
+        cosine, sine = np.cos(first + inputs), np.sin(first + inputs)
+        along, across = last + outputs - crank * cosine, offset - crank * sine
+        by = (
+            -cosine * along - sine * across,
+            np.full_like(along, -rod),
+            across,
+            crank * (sine * along - cosine * across),
+        )
+        return np.stack([*(-part / along for part in by), -np.ones_like(along)], axis=-1)
+
+
+def _solved(matrices: Real, right: Real) -> Real:
+    """Return the solutions of linear equations (k, 3, 3), NaN where there is none."""
+    sound = np.abs(np.linalg.det(matrices)) > 1e-12
+    solutions = np.full(right.shape, np.nan)
+    solutions[sound] = np.linalg.solve(matrices[sound], right[sound][..., None])[..., 0]
+    return solutions
 
 
 FOUR_BAR, SLIDER_CRANK = FourBarKind(), SliderCrankKind()

@@ -247,7 +247,7 @@ def test_starts_with_which_a_link_would_point_the_other_way_are_refused() -> Non
 def test_nothing_near_by_has_a_smaller_largest_error() -> None:
     sixty = 60 * DEGREE
     (found,) = linkanim.function("y = log10(x)", 1, 2, input_range=sixty, output_range=sixty, count=1)
-    given, generator = found.task.function, found.task.generator
+    given, kind = found.task.function, found.task.kind
     row = np.array([*(found.parameters[name] / 100 for name in ("crank", "coupler", "rocker"))])
     row = np.concatenate([row, [found.input_start, found.output_start]])
     x = np.linspace(1, 2, 801)
@@ -256,7 +256,7 @@ def test_nothing_near_by_has_a_smaller_largest_error() -> None:
     way = given.y_share(x) * found.output_range
 
     def largest(row: Real) -> float:
-        outputs, _ = generator.outputs(row[None], closure, given.x_share(x) * found.input_range, way)
+        outputs, _ = kind.outputs(row[None], closure, given.x_share(x) * found.input_range, way)
         return float(np.abs(outputs[0] - way).max() * given.span / found.output_range)
 
     assert largest(row) == pytest.approx(found.error, rel=1e-5)

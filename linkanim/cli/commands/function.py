@@ -102,7 +102,7 @@ def _cells(one: Generated) -> tuple[str, ...]:
     return (
         *(significant(one.error, 3), share),
         _span(one, one.input_start, one.input_range, turning=True),
-        _span(one, one.output_start, one.output_range, turning=one.task.generator.turning),
+        _span(one, one.output_start, one.output_range, turning=one.task.kind.turning),
         *(angle, one.class_name),
     )
 
@@ -128,5 +128,5 @@ def _object(one: Generated) -> dict[str, object]:
         "transmission_angle": one.transmission_angle,
         "largest_link": one.size,
         "class": one.class_name,
-        "parameters": {"kind": one.task.generator.name, **one.parameters},
+        "parameters": {"kind": one.task.kind.name, **one.parameters},
     }
