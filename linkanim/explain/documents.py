@@ -147,7 +147,7 @@ h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoi
 .task {{ display: grid; grid-template-columns: 3fr 1.3fr; gap: 0 1.2rem; align-items: start; }}
 .task ul.given {{ columns: 1 !important; padding: 0; margin: 0; }} .task figure.vectors {{ margin: 0; }}
 .question {{ display: flex; flex-direction: column; break-inside: avoid; margin: .8rem 0 0; }}
-.question .room {{ flex: 1; min-height: 5rem; }} 
+.question .room {{ flex: 1; min-height: 5rem; }}
 .marks {{ float: right; color: #57606a; padding-left: 1rem; }}
 .hint {{ color: #57606a; }}
 .answers {{ display: flex; flex-wrap: wrap; gap: .3rem 1.6rem; }} .answers span {{ white-space: nowrap; }}
