@@ -243,10 +243,11 @@ def timing(text: str) -> float | str:
 
 
 def vectors(text: str) -> frozenset[str]:
-    """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
+    """Read a list such as `v,a`: which of velocity, acceleration and force are drawn."""
     chosen = frozenset(part.strip() for part in text.split(","))
     if not chosen <= set(TOGGLES["vectors"].steps):
-        raise BadInput(f"{shown(text)} is not a list of vectors; take v (velocity), a (acceleration) or v,a")
+        way_out = "take v (velocity), a (acceleration), f (force), or several, as v,a"
+        raise BadInput(f"{shown(text)} is not a list of vectors; {way_out}")
     return chosen
 
 

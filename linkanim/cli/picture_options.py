@@ -12,7 +12,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.measures import coupler_body
 from linkanim.picture.layout import SMALL, layout
-from linkanim.picture.look import TOGGLES, Look
+from linkanim.picture.look import FORCE, TOGGLES, Look
 from linkanim.picture.purpose import PURPOSES, USUAL_SIZE
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
@@ -78,7 +78,8 @@ def look_of(scene: Scene, options: Namespace) -> Look:
     """Return what the options say is to be shown of a scene.
 
     `BadInput` for centrodes where every link turns about a fixed pin, or slides, and for a chart over an
-    input's angle where the input swings; `AssemblyError` for the other closure where there is none.
+    input's angle where the input swings; for forces where there are none; `AssemblyError` for the other
+    closure where there is none.
     """
     look = Look(**{name: value for name, value in vars(options).items() if name in TOGGLES})
     if look.centres > 1 and coupler_body(scene.linkage) is None:
@@ -87,6 +88,8 @@ def look_of(scene: Scene, options: Namespace) -> Look:
         raise BadInput(
             f"--over angle: the input of {scene.name} swings; a chart beside it runs over time or phase"
         )
+    if FORCE in look.vectors:
+        scene.refuse_forceless()
     if look.ghost:
         other_closure(scene)  # which says why where there is none
     return look

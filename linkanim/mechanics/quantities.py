@@ -339,7 +339,7 @@ def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) 
     """Yield the force of each joint on each body, those of guides and gears, and that on the ground."""
     if not linkage.forceful:
         return
-    order = _force_order(linkage)
+    order = force_order(linkage)
     labels = {GROUND: "1", **link_labels(linkage)}
     words = {body.name: called(body, names) for body in linkage.bodies} | {GROUND: "Ground"}
 
@@ -375,7 +375,7 @@ def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) 
     yield Quantity(*moment, path=("ground", "moment"))
 
 
-def _force_order(linkage: Linkage) -> int:
+def force_order(linkage: Linkage) -> int:
     """Return which derivative forces depend on: 2 with inertia, 1 with damping."""
     if any(body.forceful for body in linkage.bodies) and not linkage.static:
         return 2
@@ -428,7 +428,7 @@ def _of_input(linkage: Linkage) -> Iterator[Quantity]:
 
         yield _whole("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
     if linkage.forceful:
-        order = _force_order(linkage)
+        order = force_order(linkage)
         name, unit = actuator.effort
         symbol = f"{name[0].upper()}_{{in}}"
         yield _whole(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)

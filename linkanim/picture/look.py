@@ -24,6 +24,7 @@ Default = TypeVar("Default")
 
 VELOCITY: Literal["v"] = "v"
 ACCELERATION: Literal["a"] = "a"
+FORCE: Literal["f"] = "f"
 
 
 class Option(NamedTuple):
@@ -70,10 +71,11 @@ def _toggle(default: Default, *options: Option, **how: Any) -> Default:
 class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
-    With `ink` traces are thickened and coloured by speed. `vectors` holds "v" (velocity) and "a"
-    (acceleration). `chart` is one of `scene.quantities`, up to three with commas between, or None for no
-    chart; `over` is its horizontal axis, "angle", "time" or "phase", or None for the usual one. Lengths are
-    shown in `unit`, or in the scene's own if it is None. With `background` False the ground stays
+    With `ink` traces are thickened and coloured by speed. `vectors` holds "v" (velocity), "a"
+    (acceleration) and "f" (force, where the scene has any). `chart` is one of `scene.quantities`, up to three
+    with commas between, or None for no chart; `over` is its horizontal axis, "angle", "time" or "phase", or
+    None for the usual one. Lengths are shown in `unit`, or in the scene's own if it is None. With
+    `background` False the ground stays
     transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in fractions
     of the window's height. `ghost` draws the other closure faintly. `names` is 0 for none, 1 for the names
     of joints and links with the input's direction of turning, 2 for dimensions and the input's angle as
@@ -103,11 +105,11 @@ class Look:
     )
     vectors: frozenset[str] = _toggle(
         frozenset(),
-        Option("vectors", "draw velocities, accelerations, or both", metavar="v,a"),
-        steps=(VELOCITY, ACCELERATION),
-        answers=("velocity", "acceleration"),
-        keys=("v", "a"),
-        title="velocity, acceleration vectors",
+        Option("vectors", "draw velocities, accelerations, forces, or several of them", metavar="v,a,f"),
+        steps=(VELOCITY, ACCELERATION, FORCE),
+        answers=("velocity", "acceleration", "force"),
+        keys=("v", "a", "f"),
+        title="velocity, acceleration, force",
         subject="measure",
     )
     names: int = _toggle(

@@ -17,11 +17,13 @@ from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import DrivenSlider
+from linkanim.mechanics.measures import components, line_direction, loaded
 from linkanim.mechanics.motion import Motion, Pose
-from linkanim.mechanics.quantities import indexed
+from linkanim.mechanics.quantities import force_order, indexed, link_labels
+from linkanim.mechanics.reactions import GROUND, guided
 from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.layout import Gauge, Layout
-from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.picture.look import ACCELERATION, FORCE, VELOCITY, Look
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import (
     Places,
@@ -336,13 +338,19 @@ def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> l
     return [layer.placed(pivot, unit(pin - pivot)) for layer in bent]
 
 
-# Velocity and acceleration arrows at all moving joints and centres of mass, with their names.
+# Arrows with their names: of velocities and accelerations at all moving joints and centres of mass, of forces
+# where they act.
 
-Kind = Literal["v", "a"]
+Kind = Literal["v", "a", "f"]
 LONGEST, _LONGEST_OF_STILL, _LEAST = 0.22, 0.18, 0.02
 """The longest arrow of a cycle, as a share of the window's height; and the least share of its largest value
 to which a still's arrows are scaled: below it the linkage is nearly at rest."""
-ORDER = {"v": 1, "a": 2}
+_MOST_LONGEST = {"v": 100.0, "a": 100.0, "f": 2.5}
+"""How many times as long as the longest an arrow may be: forces that grow without bound are not drawn."""
+_USUAL = 0.85
+"""Where forces grow without bound, the longest arrow stands for this quantile of them."""
+_STILL = 1e-9
+"""The share of its speed at which an input moves nothing by inertia or damping."""
 
 
 class SeenArrow(NamedTuple):
@@ -362,7 +370,8 @@ class SeenArrow(NamedTuple):
 class Arrows:
     """Arrows of one kind at one scale over the whole cycle.
 
-    `most` is the cycle's largest value at the scene's own speed; it is drawn `longest` pixels long.
+    `most` is the cycle's largest value at the scene's own speed; it is drawn `longest` pixels long. The part
+    `resting` of it is the same at every speed, the rest grows with its power `order`.
     """
 
     kind: Kind
@@ -374,37 +383,40 @@ class Arrows:
     colour: Colour
     halo: Colour
     gauge: Gauge
+    order: int
+    resting: float = 0.0
 
     def scale(self, speed: float) -> float:
-        """Return pixels for one unit of length and second at this input speed (rad/s of phase).
+        """Return pixels for one unit of length and second, or newton, at this input speed (rad/s of phase).
 
         It depends on the input's speed alone, so that an arrow's length shows where in the cycle the motion
         is fast, at any speed.
         """
-        faster = abs(speed / self.drive) ** ORDER[self.kind]
-        return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
+        most = self.resting + (self.most - self.resting) * abs(speed / self.drive) ** self.order
+        return self.longest / most if most > 0 else 0.0
 
     def paths(self, motion: Motion, joints: tuple[str, ...]) -> Iterator[tuple[str, Any, Any]]:
         """Yield the symbol of each arrow at the scene's own speed, its places (n, 2), y up, and reaches.
 
         Reaches (n, 2), y up, are in pixels; those of a motion that does not turn at the scene's speed, too.
         """
-        values, of_mass = _rates(motion, self.kind)
         speed = np.atleast_1d(np.asarray(motion.input_speed, np.float64))
         scale = np.array([self.scale(float(one)) for one in speed[:1]])
-        rows = [(name, motion.position[name], values[name]) for name in joints]
-        rows += [(f"G {body}", motion.com_position[body], one) for body, one in of_mass.items()]
-        for name, place, value in rows:
-            yield indexed(self.kind, name), place, scale * np.atleast_2d(value)
+        for symbol, place, value in _values(motion, self.kind, joints):
+            reach = scale * np.atleast_2d(value)
+            with np.errstate(invalid="ignore"):
+                drawn = np.hypot(reach[:, :1], reach[:, 1:]) <= _MOST_LONGEST[self.kind] * self.longest
+            yield symbol, place, np.where(drawn, reach, 0.0) if self.kind == FORCE else reach
 
     def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[SeenArrow]:
         """Return the arrows of a pose that are long enough to be seen, in pixels."""
         scale = self.scale(pose.input_speed)
         found = [
-            SeenArrow(indexed(self.kind, name), view.place(place), complex(scale * x, -scale * y))
-            for name, place, (x, y) in _values(pose, self.kind, joints)
+            SeenArrow(symbol, view.place(place), complex(scale * x, -scale * y))
+            for symbol, place, (x, y) in _values(pose, self.kind, joints)
         ]
-        return [arrow for arrow in found if 0.01 < abs(arrow.reach) / self.longest < 100]
+        most = _MOST_LONGEST[self.kind]
+        return [arrow for arrow in found if 0.01 < abs(arrow.reach) / self.longest < most]
 
 
 def arrow_layers(
@@ -429,10 +441,45 @@ def arrow_layers(
     ]
 
 
-def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:
-    values, of_mass = _rates(pose, kind)
-    at_joints = [(joint, pose.position[joint], values[joint]) for joint in joints]
-    return at_joints + [(f"G {body}", pose.com_position[body], value) for body, value in of_mass.items()]
+def _values(motion: Motion | Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:
+    """Return the symbol of each arrow, where it begins, and its value."""
+    if kind == FORCE:
+        return list(_pulls(motion))
+    values, of_mass = _rates(motion, kind)
+    at_joints = [(indexed(kind, joint), motion.position[joint], values[joint]) for joint in joints]
+    masses = ((indexed(kind, f"G {body}"), motion.com_position[body], one) for body, one in of_mass.items())
+    return [*at_joints, *masses]
+
+
+def _pulls(motion: Motion | Pose) -> Iterator[tuple[str, Any, Any]]:
+    """Yield the forces of joints and guides and the loads, as `_values` does: each on one of its two bodies.
+
+    It is the one that moves, or of two the one that was solved for later; where more meet, each has its own.
+    """
+    linkage, labels = motion.mechanism.linkage, link_labels(motion.mechanism.linkage)
+
+    def vector(pair: Any) -> Any:
+        return pair if isinstance(motion.phase, float) else np.stack(np.broadcast_arrays(*pair), axis=-1)
+
+    for joint, bodies in motion.reaction.items():
+        moving = [body for body in bodies if body != GROUND]
+        for body in moving[:1] if len(moving) == 2 else moving:
+            yield indexed("F", f"{joint},{labels.get(body, body)}"), motion.position[joint], bodies[body]
+    for joint, name in zip(linkage.slides, guided(linkage), strict=True):
+        u, v = line_direction(motion, linkage.slides[joint].line)
+        with np.errstate(invalid="ignore"):  # a force without bound
+            size = motion.reactions.guides[name].force
+            force = vector((-v * size, u * size))
+        yield indexed("N", labels.get(name, name)), motion.position[joint], force
+    for load in linkage.loads:
+        carrier = linkage.body(load.on)
+        (dx, dy), force = loaded(motion, load)
+        x, y = components(motion.position[carrier.slider or carrier.joints[0]])
+        yield (
+            indexed("P", load.name),
+            vector((x + dx, y + dy)),
+            vector(tuple(0.0 * x + part for part in force)),
+        )
 
 
 def plain(symbol: str) -> str:
@@ -450,7 +497,8 @@ def arrows_for(
     figure: Figure, look: Look, layout: Layout, gauge: Gauge, theme: Theme, moment: float | None = None
 ) -> tuple[Arrows, ...]:
     """Return the arrows that a look has, scaled to the cycle or to one moment."""
-    kinds = (kind for kind in (VELOCITY, ACCELERATION) if kind in look.vectors)
+    known: tuple[Kind, ...] = (VELOCITY, ACCELERATION, FORCE)
+    kinds = (kind for kind in known if kind in look.vectors and (kind != FORCE or figure.linkage.forceful))
     return tuple(arrows_of(figure, kind, layout.size[1], gauge, theme, moment=moment) for kind in kinds)
 
 
@@ -461,22 +509,46 @@ def arrows_of(
 
     Arrows of one `moment` are scaled to its own largest value, unless that is a small share of the cycle's.
     """
-    colour = theme.velocity if kind == "v" else theme.acceleration
+    colour = {"v": theme.velocity, "a": theme.acceleration, "f": theme.force}[kind]
     most = _most(figure.cycle, kind, figure.moving)
     if moment is not None:
         most = max(_most(figure.scene.pose(moment, 2), kind, figure.moving), _LEAST * most)
-    drive = figure.linkage.drive.speed
-    words, per = ("velocity", "/s") if kind == "v" else ("acceleration", "/s²")
-    unit = figure.scene.length_unit + per
+    drive, order, resting = figure.linkage.drive.speed, {"v": 1, "a": 2, "f": 0}[kind], 0.0
+    if kind == FORCE and (order := force_order(figure.linkage)):
+        resting, growing = _parts(figure, drive, moment)
+        most = max(resting + growing, _LEAST * most)
     longest = (LONGEST if moment is None else _LONGEST_OF_STILL) * height
-    return Arrows(kind, words, unit, most, longest, drive, colour, theme.background, gauge)
+    unit = _UNITS[kind].format(figure.scene.length_unit)
+    known = kind, _WORDS[kind], unit, most, longest, drive
+    return Arrows(*known, colour, theme.background, gauge, order, resting)
+
+
+def _parts(figure: Figure, speed: float, moment: float | None) -> tuple[float, float]:
+    """Return the greatest force without inertia and damping, and the greatest that these add at a speed."""
+    phase = figure.cycle.phase if moment is None else np.array([moment])
+    both = (figure.scene.solve(phase=phase, speed=share * speed) for share in (_STILL, 1.0))
+    still, moving = ([value for _, _, value in _values(one, FORCE, figure.moving)] for one in both)
+    with np.errstate(invalid="ignore"):
+        added = [one - other for one, other in zip(moving, still, strict=True)]
+    return _largest(FORCE, still), _largest(FORCE, added)
+
+
+_WORDS = {"v": "velocity", "a": "acceleration", "f": "force"}
+_UNITS = {"v": "{}/s", "a": "{}/s²", "f": "N"}
 
 
 def _most(cycle: Motion | Pose, kind: Kind, joints: tuple[str, ...]) -> float:
-    values, of_mass = _rates(cycle, kind)
-    rows = [np.atleast_2d(row) for row in (*(values[joint] for joint in joints), *of_mass.values())]
+    """Return the greatest size of an arrow; of forces that are not bounded a usual one."""
+    return _largest(kind, [value for _, _, value in _values(cycle, kind, joints)])
+
+
+def _largest(kind: Kind, values: Sequence[Any]) -> float:
+    rows = [np.atleast_2d(value) for value in values]
     sizes = np.concatenate([np.zeros(1), *(np.sqrt(row[:, 0] ** 2 + row[:, 1] ** 2) for row in rows)])
-    return float(sizes[np.isfinite(sizes)].max())
+    finite = sizes[np.isfinite(sizes)]
+    if kind == FORCE and finite.size < sizes.size:
+        return float(np.sort(finite)[int(_USUAL * (finite.size - 1))])
+    return float(finite.max())
 
 
 def _rates(motion: Motion | Pose, kind: Kind) -> tuple[Mapping[str, Any], Mapping[str, Any]]:

@@ -35,6 +35,7 @@ class Theme:
     pin: Colour
     velocity: Colour
     acceleration: Colour
+    force: Colour
     warning: Colour
     panel: Colour
     chosen: Colour
@@ -60,6 +61,7 @@ LIGHT = Theme(
     pin=(252, 252, 250),
     velocity=(0, 98, 156),
     acceleration=(190, 72, 0),
+    force=(150, 32, 118),
     warning=(186, 34, 22),
     panel=(255, 255, 255),
     chosen=(222, 236, 247),
@@ -80,6 +82,7 @@ DARK = Theme(
     pin=(17, 20, 26),
     velocity=SKY,
     acceleration=(255, 150, 64),
+    force=(244, 140, 214),
     warning=(255, 122, 104),
     panel=(28, 32, 40),
     chosen=(32, 58, 82),

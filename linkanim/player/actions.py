@@ -15,7 +15,7 @@ from typing import Any, TypeVar, get_args
 
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.picture.look import TOGGLES, ConstructionKind, Look, answer, toggled
+from linkanim.picture.look import FORCE, TOGGLES, ConstructionKind, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
 from linkanim.player import building, edits, making, rules, taking
 from linkanim.player.action import Action
@@ -83,6 +83,16 @@ def ghost(state: State, _: None) -> State:
         except LinkanimError as error:
             return with_toast(state, str(error))
     return replace(state, look=toggled(state.look, "ghost"))
+
+
+def vectors(state: State, kind: str) -> State:
+    """Show or hide the arrows of a kind; forces only where the scene has any."""
+    if kind == FORCE and kind not in state.look.vectors:
+        try:
+            state.scene.refuse_forceless()
+        except LinkanimError as error:
+            return with_toast(state, str(error))
+    return replace(state, look=toggled(state.look, "vectors", kind))
 
 
 def polygons(state: State, _: None) -> State:
@@ -402,7 +412,14 @@ def _pause(state: State, _: None) -> State:
 
 def _of_look(name: str) -> Rule:
     """Return the rule of a field of the look; some do more than go a step further."""
-    more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over, "polygons": polygons}
+    more: Mapping[str, Callable[[State, Any], State]] = {
+        "ghost": ghost,
+        "theme": theme,
+        "unit": unit,
+        "over": over,
+        "polygons": polygons,
+        "vectors": vectors,
+    }
     handle = more.get(name, toggling(name))
     return Rule(
         rules.one_of(*TOGGLES[name].members),

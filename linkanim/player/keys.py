@@ -518,6 +518,7 @@ _APART: Mapping[Action, str] = {
     Action("centres"): "instant centres, then centrodes",
     Action("vectors", "v"): "velocities",
     Action("vectors", "a"): "accelerations",
+    Action("vectors", "f"): "forces",
     Action("zoom", (1.0, 0.0, 0.0)): "nearer",
     Action("zoom", (-1.0, 0.0, 0.0)): "farther",
     Action("fit"): "fit",
@@ -615,7 +616,7 @@ class CommandGroup(NamedTuple):
 
 
 GROUPS: Mapping[str, CommandGroup] = {
-    "arrows": CommandGroup("Arrows", (Action("vectors", "v"), Action("vectors", "a"))),
+    "arrows": CommandGroup("Arrows", tuple(Action("vectors", kind) for kind in "vaf")),
     "construction": CommandGroup(
         "Construction",
         (

@@ -130,12 +130,16 @@ class Scene:
         free = self.towards is not None and not self.towards.mechanism.hindered
         return passing(self.linkage) if free else mechanism(self.linkage)
 
-    @property
-    def without_inertia(self) -> Scene:
-        """The scene with its forces as at rest; BadInput where it states nothing that has a force."""
+    def refuse_forceless(self) -> None:
+        """Raise BadInput where the scene states nothing that has a force."""
         if not self.linkage.forceful:
             reason = "states no mass, spring, damper or load, so it has no forces"
             raise BadInput(f"{self.name}: {reason}; give a body a mass, or add [loads]")
+
+    @property
+    def without_inertia(self) -> Scene:
+        """The scene with its forces as at rest; BadInput where it has none."""
+        self.refuse_forceless()
         return replace(self, linkage=replace(self.linkage, static=True))
 
     def style(self, body: str) -> BodyStyle:

@@ -42,7 +42,6 @@ from linkanim.picture.items import Caption, Group, Item
 from linkanim.picture.look import ACCELERATION, VELOCITY, ThemeName
 from linkanim.picture.motion_marks import (
     AHEAD,
-    ORDER,
     RECENT,
     SWEEP,
     SWELL,
@@ -526,8 +525,9 @@ class Mobile:
 
     def _arrows(self, kind: Kind) -> Mover:
         """Return the data of arrows; `gain` is their length for a rate of 1 pixel/rad (or /rad²) of phase."""
-        order, scene, sides = ORDER[kind], self.light.scene, (self.light, self.dark)
+        scene, sides = self.light.scene, (self.light, self.dark)
         light, dark = (arrows_of(one.figure, kind, one.size[1], one.gauge, one.theme) for one in sides)
+        order = light.order
         gain = light.scale(light.drive) * abs(light.drive) ** order / self.light.view.scale
         colours = self.pairs.variables((light.colour, light.halo), (dark.colour, dark.halo))
         feet = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]

@@ -128,7 +128,7 @@ DONE: dict[str, Callable[[State], object]] = {
     "edit dimensions": lambda state: state.editing.open,
     "build a linkage": lambda state: state.building is not None,
     "draw a path to follow": lambda state: state.sketch is not None,
-    "arrows": lambda state: rows(state) == ["velocities", "accelerations"],
+    "arrows": lambda state: rows(state) == ["velocities", "accelerations", "forces"],
     "all commands": lambda state: len(rows(state)) > 40,
     "the other closure": lambda state: state.scene.linkage != load("crank-rocker").linkage,
     "light / dark": lambda state: state.look.theme == "dark",

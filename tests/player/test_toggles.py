@@ -26,6 +26,12 @@ def rocker() -> State:
     return begin(load("crank-rocker"))
 
 
+@pytest.fixture
+def laden() -> State:
+    """Return a state in which all there is can be shown: there are forces, and another closure."""
+    return begin(load("engine"))
+
+
 def pressed(state: State, key: str) -> State:
     letter = key.removeprefix("shift+")
     bind = bind_of(Press(letter, letter, shift=letter != key))
@@ -33,9 +39,18 @@ def pressed(state: State, key: str) -> State:
     return advance(state, [bind.action])
 
 
+def test_where_nothing_has_a_force_its_key_says_so(rocker: State) -> None:
+    state = pressed(rocker, "f")
+    assert state.look == rocker.look
+    assert state.toast is not None
+    assert "crank-rocker: states no mass, spring, damper or load" in state.toast.text
+
+
 @pytest.mark.parametrize(("name", "key"), KEYS)
-def test_a_key_goes_through_all_steps_and_back(rocker: State, name: str, key: str) -> None:
-    looks, texts, state = [rocker.look], [], rocker
+def test_a_key_goes_through_all_steps_and_back(rocker: State, laden: State, name: str, key: str) -> None:
+    state = laden if key == "f" else rocker
+    looks: list[Look] = [state.look]
+    texts: list[str | None] = []
     for _ in range(max(len(TOGGLES[name].steps) // len(TOGGLES[name].keys), 2)):
         state = pressed(state, key)
         looks.append(state.look)

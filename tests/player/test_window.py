@@ -353,7 +353,7 @@ def test_escape_closes_help_first(player: Player) -> None:
 
 def test_an_unbound_key_changes_nothing(player: Player) -> None:
     pixels = player.pixels
-    player.press(*plain("f"))
+    player.press(*plain("z"))
     player.press(pygame.K_TAB, pygame.KMOD_LALT, "")
     assert player.pixels == pixels
 
