@@ -68,6 +68,14 @@ def size(text: str) -> tuple[int, int]:
     return width, height
 
 
+def megabytes(text: str) -> int:
+    """Read `1.5MB` or `800 kB`: a number of bytes."""
+    found = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*([kKmM])[bB]\s*", text)
+    if not found or not (count := round(float(found[1]) * {"k": 1e3, "m": 1e6}[found[2].lower()])):
+        raise BadInput(f"{shown(text)} is not the size of a file; write it as 1MB or 800kB")
+    return count
+
+
 def number(text: str) -> float:
     """Read a finite number."""
     try:
@@ -548,7 +556,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
     "record": (
         _scene(", or of a tape"),
-        _output("write OUT.gif, .mp4, .webm, .webp, .apng, .mov or numbered .png (default: SCENE.gif here)"),
+        _takes("more", nargs="*", metavar="SCENE", help="further scenes, each on a slide of OUT.pptx"),
+        _output(
+            "write OUT.gif, .mp4, .webm, .webp, .apng, .mov, numbered .png, .pptx (slides) or .pdf (a "
+            "page for each frame); default: SCENE.gif in this folder"
+        ),
         _takes(
             "--for", dest="preset", choices=tuple(PRESETS), help="take size, rate and format for a purpose"
         ),
@@ -560,6 +572,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _value("--seconds S", positive, "how long the clip is in seconds; it need not close"),
         ),
         _flag("--reverse", "run the motion backwards"),
+        _value("--max-size SIZE", megabytes, "choose size and rate so that a file has at most SIZE, as 1MB"),
+        _flag("--titles", "put the loops of slides under their titles"),
         _ALT,
         _look("record"),
         _CONSTRUCTION,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cached_property
 from math import tau
@@ -12,6 +12,7 @@ import pygame
 from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import input_symbol
+from linkanim.paper.pdf import pages, require_pdf
 from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
 from linkanim.picture.figure import figure
@@ -25,6 +26,21 @@ from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.stills import still_phase
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
+
+
+def moving(
+    scene: Scene, size: tuple[int, int], look: Look, phases: Iterable[float], speed: float
+) -> bytes:
+    """Return a scene's poses at phases (rad), at a speed (rad/s), each as a page of a PDF.
+
+    Names and numbers stand as in a recording. `BadInput` where fpdf2 is not installed.
+    """
+    require_pdf()
+    picture = Picture(scene, size, look)
+    background = picture.theme.background if look.background else None
+    poses = (picture.poses(phase, speed) for phase in phases)
+    frames = (picture.groups(pose, faint=faint) for pose, faint in poses)
+    return pages(size, background, frames, title=scene.title)
 
 
 @frozen

@@ -11,7 +11,7 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import rpm, short
 
-Format = Literal["gif", "mp4", "png", "webm", "webp", "apng", "mov"]
+Format = Literal["gif", "mp4", "png", "webm", "webp", "apng", "mov", "pdf"]
 
 FEWEST_PER_PERIOD = 2
 SIDES = (16, LARGEST_SIDE)
@@ -113,7 +113,7 @@ def make_plan(clip: Clip, form: Format) -> Plan:
     """Choose frames and rate together, so that frames / rate is the length asked for.
 
     GIF: the delay is in whole hundredths of a second, that neighbour of 1/fps which comes nearer to the
-    length. PNG: at `fps`, at which numbered frames are played. All others: frames = round(length x fps) at
+    length. PNG and PDF: at `fps`, at which frames are played. All others: frames = round(length x fps) at
     the exact rate frames / length. `BadInput` for a speed of zero, a number that is not finite, fewer than
     two frames a period, or more than `MOST_FRAMES`.
     """
@@ -155,7 +155,7 @@ def _cut(length: Fraction, fps: Fraction, clip: Clip, form: Format) -> tuple[int
     if form == "gif":
         return _centiseconds(length * _CENTISECONDS, fps)
     frames = round(length * fps)
-    exact = form != "png" and clip.seconds is None and frames > 0
+    exact = form not in ("png", "pdf") and clip.seconds is None and frames > 0
     return frames, frames / length if exact else fps
 
 

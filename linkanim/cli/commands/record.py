@@ -1,16 +1,18 @@
-"""`linkanim record`: a scene's true period, or a tape, as a file."""
+"""`linkanim record`: a scene's true period, or a tape, as a file; several scenes as slides."""
 
 from __future__ import annotations
 
+import shutil
 import sys
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from linkanim.cli import main
-from linkanim.cli.alternative import alternative
+from linkanim.cli.alternative import alternative, plain
 from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
 from linkanim.cli.letters import tell_of_scene
@@ -18,13 +20,14 @@ from linkanim.cli.options import DEFAULT, PRESETS, Preset, inputs_of
 from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
-from linkanim.letters import PIXELS
-from linkanim.manifest import checked_output
+from linkanim.letters import PDF, PIXELS
+from linkanim.manifest import Output, checked_output
 from linkanim.picture.layout import SMALL, layout
 from linkanim.picture.look import TOGGLES
 from linkanim.picture.purpose import PURPOSES
 from linkanim.picture.quantities import speed_words
-from linkanim.recorder.recording import SUFFIXES, Recording, record
+from linkanim.recorder.plan import Clip, make_plan, refuse_size
+from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -32,25 +35,129 @@ _OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", "construction"
 """Options for which a tape has its own values, beside those of the look."""
 
 
+_DECK, _VECTORS = ".pptx", ".pdf"
+_SHARES = (1.0, 0.8, 0.64, 0.5, 0.4, 0.3)
+_SLOWER = (20.0, 12.5, 10.0)
+"""The sizes, in shares of the one asked for, and the frames a second that `--max-size` tries."""
+
+
 def run(options: Namespace) -> None:
     """Record what was asked; print the file's path on stdout, and a summary on stderr."""
     preset = PRESETS.get(options.preset, DEFAULT)
-    is_tape = options.scene.lower().endswith(".json")
     usual = f"{_stem(options.scene)}{preset.suffix}"
-    target = checked_output(options.output, usual, SUFFIXES, inputs_of(options), ours=options.no_clobber)
-    if is_tape and options.alt:
+    suffixes = (*SUFFIXES, _DECK, _VECTORS)
+    target = checked_output(options.output, usual, suffixes, inputs_of(options), ours=options.no_clobber)
+    suffix = target.path.suffix.lower()
+    if suffix != _DECK and (options.more or options.titles):
+        what = "several scenes are" if options.more else "--titles is"
+        raise BadInput(f"{what} for slides; write them with -o {target.path.stem}.pptx")
+    if _is_tape(options) and options.alt:
         raise BadInput("--alt is for a scene; what a tape shows is what was done in it")
     told = alternative(options)
-    size = None if is_tape and not options.preset else preset.size
-    pixels: tuple[int, int] | None = options.size or size
     with bar(shown=options.progress) as progress:
-        scale = letters_for(preset, pixels or preset.size)
-        work = _of_tape(options) if is_tape else _of_scene(options, target.path, scale)
-        recording = work(target, size=pixels, fps=options.fps or preset.fps, progress=progress)
-    print(recording.summary, file=sys.stderr)
-    print(recording.path)
+        if suffix == _DECK:
+            summary = _slides(options, target, progress)
+        elif suffix == _VECTORS:
+            summary = _pages(options, target)
+        else:
+            summary, target = _recorded(options, target, progress)
+    print(summary, file=sys.stderr)
+    print(target.path)
     if options.alt:
         told(_words(options))
+
+
+def _recorded(options: Namespace, target: Output, progress: Progress | None) -> tuple[str, Output]:
+    """Record a scene or a tape; return the summary, and the output with the path of the first frame."""
+    most = options.max_size
+    if most is None:
+        made = _at(options, target, progress)
+        return made.summary, replace(target, path=made.path)
+    if target.path.suffix.lower() == ".png":
+        raise BadInput("--max-size is for one file; numbered frames are many")
+    with TemporaryDirectory() as folder, target.replacing() as part:
+        again = Path(folder) / target.path.name
+        for tried in _smaller(options):
+            made = _at(tried, Output(again), progress)
+            if made.file_bytes <= most:
+                shutil.copyfile(again, part)
+                return replace(made, path=target.path).summary, target
+        wide, high = made.size
+        raise BadInput(
+            f"--max-size: at {wide}x{high} and {float(made.plan.rate):g} frames a second it still has"
+            f" {made.file_bytes / 1e6:.2f} MB; raise it, or record a shorter period with --speed"
+        )
+
+
+def _smaller(options: Namespace) -> Iterator[Namespace]:
+    """Yield the options with ever smaller pictures, and for each ever fewer frames a second."""
+    preset = PRESETS.get(options.preset, DEFAULT)
+    (width, height), fps = options.size or preset.size, options.fps or preset.fps
+    for share in _SHARES:
+        size = (2 * round(share * width / 2), 2 * round(share * height / 2))
+        for rate in (fps, *(slower for slower in _SLOWER if slower < fps)):
+            yield Namespace(**{**vars(options), "size": size, "fps": rate})
+
+
+def _at(options: Namespace, target: Output, progress: Progress | None) -> Recording:
+    """Record a scene or a tape at the size and the rate of the options."""
+    preset = PRESETS.get(options.preset, DEFAULT)
+    size = None if _is_tape(options) and not options.preset else preset.size
+    pixels: tuple[int, int] | None = options.size or size
+    scale = letters_for(preset, pixels or preset.size)
+    work = _of_tape(options) if _is_tape(options) else _of_scene(options, target.path, scale)
+    return work(target, size=pixels, fps=options.fps or preset.fps, progress=progress)
+
+
+def _slides(options: Namespace, target: Output, progress: Progress | None) -> str:
+    """Write a slide for each scene or tape; return what was written."""
+    from linkanim.paper.deck import Slide, below_title, deck
+
+    shape = options.size or PRESETS["slides"].size
+    size = below_title(shape) if options.titles else shape
+    scenes = [scene for scene in (options.scene, *options.more) if not scene.lower().endswith(".json")]
+    titles, slides = {scene: load(scene).title for scene in scenes}, []
+    with TemporaryDirectory() as folder:
+        for n, scene in enumerate((options.scene, *options.more)):
+            how = {"scene": scene, "size": size, "preset": options.preset or "slides"}
+            how |= {"hud": False} if options.titles else {}
+            asked = Namespace(**{**vars(options), **how})
+            made, _ = _recorded(asked, Output(gif := Path(folder) / f"{n}.gif"), progress)
+            notes = made if _is_tape(asked) else plain(_words(asked))
+            slides.append(Slide(gif.read_bytes(), size, titles.get(scene, _stem(scene)), notes))
+    with target.replacing() as part:
+        part.write_bytes(deck(slides, shape, titled=options.titles))
+    count = f"{len(slides)} slides" if len(slides) > 1 else "one slide"
+    return f"{target.path}: {count}, {target.path.stat().st_size / 1e6:.2f} MB; each loops by itself"
+
+
+def _pages(options: Namespace, target: Output) -> str:
+    """Write the frames of a period as the pages of a PDF, in vectors; return what LaTeX is to be told."""
+    from linkanim.paper.figure import moving
+
+    if _is_tape(options) or options.construction or options.max_size:
+        raise BadInput("the pages of a PDF are a scene's motion; record a tape as a GIF, or leave that out")
+    preset = PRESETS.get(options.preset, DEFAULT)
+    size = options.size or preset.size
+    scene = load(options.scene)
+    refuse_size(size)
+    speed = scene.linkage.drive.speed if options.speed is None else options.speed
+    fps = options.fps or preset.fps
+    length = (options.periods or 1, options.seconds, options.reverse)
+    plan = make_plan(Clip(speed, scene.period, fps, *length), "pdf")
+    look = replace(look_of(scene, options), type_scale=letters_for(preset, size), material="flat")
+    tell_of_scene(scene, PDF, title=look.hud, names=look.names > 0)
+    with target.replacing() as part:
+        part.write_bytes(moving(scene, size, look, map(plan.phase, range(plan.frames)), plan.speed))
+    return (
+        f"{target.path}: {plan.frames} pages, {target.path.stat().st_size / 1e6:.2f} MB; in LaTeX, with the"
+        f" package animate: \\animategraphics[loop,autoplay,width=\\linewidth]{{{float(plan.rate):g}}}"
+        f"{{{target.path.stem}}}{{}}{{}}"
+    )
+
+
+def _is_tape(options: Namespace) -> bool:
+    return bool(options.scene.lower().endswith(".json"))
 
 
 def letters_for(preset: Preset, size: tuple[int, int]) -> float:
