@@ -623,6 +623,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--label TEXT", str, "the name of that table in the legend (default: its file's name)"),
         _STATIC,
+        _flag("--polar", "draw a vector's head round a turn, as a bearing's force is drawn"),
         _SIZE,
         _look("chart"),
     ),

@@ -10,6 +10,7 @@ From the ground up; a module imports from those before it only:
     curves        quantities over one true period, beside a measured table
     sentences     what a chart shows, in sentences
     chart         a chart on a page
+    polar         a vector round a turn, as a polar diagram
     figure        one pose of a scene
     vectors       the vectors of a worked solution's loops
     construction  how a linkage was synthesised, and its structural error

@@ -7,11 +7,13 @@ from argparse import Namespace
 
 from linkanim.cli.alternative import alternative
 from linkanim.cli.letters import tell_of_picture
-from linkanim.cli.picture_options import scene_canvas_target
+from linkanim.cli.picture_options import Canvas, scene_canvas_target
 from linkanim.errors import BadInput
+from linkanim.manifest import Output
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import Curves, MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
 from linkanim.paper.latex import labels_of
+from linkanim.paper.polar import PolarPage
 from linkanim.paper.sentences import without_subscripts
 from linkanim.paper.write import OF_A_CHART, write
 from linkanim.scenes import load
@@ -34,6 +36,9 @@ def run(options: Namespace) -> None:
     scene, canvas, target = scene_canvas_target(options, OF_A_CHART, ".png")
     if options.static:
         scene = scene.without_inertia
+    if options.polar:
+        _polar(scene, canvas, target, options)
+        return
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)
@@ -45,6 +50,30 @@ def run(options: Namespace) -> None:
     tell_of_picture(page, target, latex=bool(options.text))
     if measured:
         print(_difference(curves, measured), file=sys.stderr)
+    print(target.path)
+    if options.text:
+        print(labels_of(target).path)
+    told(f"{page.title}. {page.words}".strip())
+
+
+def _polar(scene: Scene, canvas: Canvas, target: Output, options: Namespace) -> None:
+    """Write a polar diagram, and print its path."""
+    for option in ("over", "data", "label"):
+        if getattr(options, option) is not None:
+            raise BadInput(f"--{option} does not go with --polar, whose axes are x and y; leave it out")
+    page = PolarPage(
+        scene,
+        options.quantity.strip(),
+        paces(scene, options),
+        canvas.size,
+        options.theme,
+        type_scale=canvas.type_scale,
+        ground=canvas.ground,
+    )
+    _ = page.known
+    told = alternative(options)
+    write(page, target, latex=bool(options.text), wide=canvas.wide)
+    tell_of_picture(page, target, latex=bool(options.text))
     print(target.path)
     if options.text:
         print(labels_of(target).path)

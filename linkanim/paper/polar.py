@@ -1,0 +1,249 @@
+"""Draw a vector round a turn as a polar diagram, the curve of its head: as a bearing's force is drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from linkanim.errors import BadInput
+from linkanim.export import csv_head, csv_rows
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.quantities import Quantity, input_symbol
+from linkanim.paper.curves import Pace
+from linkanim.paper.illustration import page_pen, page_surface
+from linkanim.picture.chart import Pen, Plot, axes, dot, line_layer, x_title
+from linkanim.picture.items import Caption, Group, Halo, Item, grouped
+from linkanim.picture.look import ThemeName
+from linkanim.picture.purpose import USUAL_SIZE
+from linkanim.picture.quantities import Axis, driven_words, linear, quantity, range_around
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import arrows, segments
+from linkanim.picture.view import Rect
+from linkanim.scenes.scene import Scene
+from linkanim.units import stepped
+
+_SAMPLES, _EVERY = 720, 60
+"""How many points a curve has for each turn of the drive, and how many from one dot to the next: 30°."""
+_ROOM = 0.1
+_NAMED = 3
+"""Every so many dots one has its angle beside it."""
+_DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0))
+
+Floats = NDArray[np.float64]
+
+
+class _Head(NamedTuple):
+    """The curve of a vector's head at one speed: its components, infinite where it is not bounded."""
+
+    pace: Pace
+    x: Floats
+    y: Floats
+
+
+@frozen
+class PolarPage:
+    """A polar diagram of a vector quantity over one true period; `size` is in pixels."""
+
+    scene: Scene
+    token: str
+    paces: tuple[Pace, ...]
+    size: tuple[int, int] = USUAL_SIZE
+    theme: ThemeName = "light"
+    type_scale: float = 1.0
+    ground: bool = True
+
+    @cached_property
+    def pen(self) -> Pen:
+        """What it is drawn with."""
+        return page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
+
+    @property
+    def background(self) -> Colour | None:
+        """The colour under everything; None where it is left open."""
+        return self.pen.theme.background if self.ground else None
+
+    @cached_property
+    def known(self) -> tuple[Quantity, Quantity, Quantity]:
+        """The vector, and its two components; BadInput for a quantity that is no vector."""
+        whole = quantity(self.scene, self.token)
+        parts = [self.scene.quantities.get(f"{whole.token}.{axis}") for axis in "xy"]
+        if None in parts:
+            reason = "is no vector, so it has no polar diagram; take a force in a joint, such as"
+            tokens = (
+                token for token in self.scene.quantities if token.endswith(".force") and token.count(".")
+            )
+            example = next(
+                tokens, next(token for token in self.scene.quantities if token.endswith(".velocity"))
+            )
+            raise BadInput(f"--polar: {self.token} {reason} {example}")
+        x, y = (part for part in parts if part)
+        return whole, x, y
+
+    @cached_property
+    def phases(self) -> Floats:
+        """The phases of the curves' points, one true period and its end."""
+        turns = self.scene.period / math.tau
+        return np.linspace(0.0, self.scene.period, round(_SAMPLES * turns) + 1)
+
+    @cached_property
+    def heads(self) -> tuple[_Head, ...]:
+        """The curves, one at each speed."""
+        _, x, y = self.known
+        motions = ((pace, pace.motion(self.scene, self.phases)) for pace in self.paces)
+        return tuple(
+            _Head(pace, *(np.asarray(part.read(motion), float) for part in (x, y)))
+            for pace, motion in motions
+        )
+
+    @property
+    def title(self) -> str:
+        """What it shows, in words."""
+        return f"{self.scene.title}: {self.known[0].words}, polar diagram"
+
+    @property
+    def words(self) -> str:
+        """Where the vector is largest."""
+        return " ".join(f"{self._largest(head)[1]}." for head in self.heads if self._largest(head)[1])
+
+    def csv(self) -> str:
+        """Return the curves as a table: phase, the input, both components at each speed."""
+        motion = self.paces[0].motion(self.scene, self.phases)
+        names = ["phase", self.scene.linkage.drive.coordinate.name]
+        columns: list[Floats] = [self.phases, np.asarray(motion.coordinate)]
+        for head in self.heads:
+            more = f" at {head.pace.words}" if len(self.heads) > 1 else ""
+            names += [f"{self.known[0].token}.{axis}{more}" for axis in "xy"]
+            columns += [head.x, head.y]
+        return csv_head(names) + csv_rows(columns)
+
+    def surface(self) -> pygame.Surface:
+        """Return the diagram drawn."""
+        return page_surface(self.size, self.background, self.groups(), self.pen.type)
+
+    def groups(self) -> tuple[Group, ...]:
+        """Return everything on the page, words over shapes."""
+        return (grouped("polar", self.items()),)
+
+    def items(self) -> Iterator[Item]:
+        """Yield everything on the page, back to front."""
+        pen, theme = self.pen, self.pen.theme
+        whole, unit = Rect(0, 0, *self.size).inset(1.2 * pen.small), self.scene.length_unit
+        yield Caption(self.title, (whole.x, whole.y), pen.text, theme.ink, strong=True)
+        below = whole._replace(y=whole.y + 1.6 * pen.text, height=whole.height - 1.6 * pen.text)
+        plot = self._plot(below)
+        yield from axes(plot, pen)
+        across, up = (part.headed(unit) for part in self.known[1:])
+        yield x_title(plot, across, pen)
+        yield Caption(up, (plot.area.x, plot.area.y - 1.4 * pen.small), pen.small, theme.ink)
+        if plot.x.low < 0.0 < plot.x.high:
+            foot = complex(plot.place(0.0, plot.y.low))
+            yield Layer(theme.dim, segments([foot], [foot - 1j * plot.area.height], 0.8 * pen.line))
+        for n, head in enumerate(self.heads):
+            yield from self._curve(plot, head, n)
+        yield from self._told(plot, below)
+
+    def _plot(self, below: Rect) -> Plot:
+        """Return the plot, with one scale across and up and the origin in it."""
+        pen = self.pen
+        ranges = []
+        for part in ("x", "y"):
+            values = np.concatenate([getattr(head, part) for head in self.heads])
+            low, high = range_around(np.where(self._bounded, values, np.inf), _ROOM)
+            ranges.append((min(low, -_ROOM * high), max(high, -_ROOM * low)))
+        left, foot = 4.5 * pen.small, 3.0 * pen.small
+        area = Rect(
+            below.x + left,
+            below.y + 1.6 * pen.small,
+            max(below.width - left - pen.small, 1),
+            max(below.height - foot - 1.6 * pen.small - len(self.heads) * 1.5 * pen.small, 1),
+        )
+        spans = [high - low for low, high in ranges]
+        scale = min(area.width / spans[0], area.height / spans[1])
+        found = []
+        for (low, high), room in zip(ranges, (area.width, area.height), strict=True):
+            more = (room / scale - (high - low)) / 2
+            found.append((low - more, high + more))
+        most = max(min(round(area.width / (5 * pen.small)), 12), 2)
+        x: Axis = linear(*found[0], most=most)
+        return Plot(area, x, linear(*found[1], most=max(most * area.height / area.width, 2).__ceil__()))
+
+    @property
+    def _bounded(self) -> NDArray[np.bool_]:
+        rows = [np.isfinite(head.x) & np.isfinite(head.y) for head in self.heads]
+        return np.concatenate(rows)
+
+    def _colour(self, n: int) -> Colour:
+        theme = self.pen.theme
+        return (theme.force, theme.velocity, theme.acceleration, *theme.traces[1:])[n % 5]
+
+    def _curve(self, plot: Plot, head: _Head, n: int) -> Iterator[Item]:
+        """Yield a curve, dots along it with angles, and an arrow to where the vector is largest."""
+        pen, colour = self.pen, self._colour(n)
+        places = plot.place(head.x, head.y)
+        inside = np.isfinite(head.x) & np.isfinite(head.y) & _within(plot, head)
+        runs = np.split(places, np.flatnonzero(~inside))
+        lines = [run[1:] if k else run for k, run in enumerate(runs)]
+        yield line_layer([line for line in lines if len(line) > 1], colour, 1.2 * pen.line, _DASHES[n % 4])
+        at, _ = self._largest(head)
+        if at is not None and n == 0:
+            origin, tip = complex(plot.place(0.0, 0.0)), complex(places[at])
+            yield Layer(colour, arrows([origin], [tip - origin], pen.line))
+        marks = [k for k in range(0, len(places) - 1, _EVERY) if inside[k]]
+        yield from dot(colour, replace(pen, line=0.6 * pen.line)).at([complex(places[k]) for k in marks])
+        if n == 0:
+            yield from self._angles(plot, places, [k for k in marks if k // _EVERY % _NAMED == 0])
+
+    def _angles(self, plot: Plot, places: NDArray[np.complex128], marks: list[int]) -> Iterator[Item]:
+        """Yield the input's place beside dots, outside the curve."""
+        pen = self.pen
+        middle = complex(np.mean(places[np.isfinite(places)]))
+        coordinate = np.asarray(self.paces[0].motion(self.scene, self.phases).coordinate)
+        for k in marks:
+            at = complex(places[k])
+            way = (at - middle) / abs(at - middle) if at != middle else 1.0
+            value = float(coordinate[k]) % math.tau if self.scene.info.full_turn else float(coordinate[k])
+            words = driven_words(self.scene, value)
+            wide = pen.type.width(words, pen.small)
+            spot = at + way * (0.9 * pen.small) + complex(way.real * wide / 2, 0.0)
+            halo = Halo(pen.theme.background, 0.2 * pen.small)
+            corner = (spot.real, spot.imag - 0.5 * pen.small)
+            yield Caption(words, corner, pen.small, pen.theme.ink, "centre", halo=halo)
+
+    def _largest(self, head: _Head) -> tuple[int | None, str]:
+        """Return which point of a curve is farthest out, and that in words; None where it is not bounded."""
+        sizes = np.hypot(head.x, head.y)
+        if not np.isfinite(sizes).all():
+            return None, f"{self.known[0].words} is unbounded"
+        k = int(sizes.argmax())
+        motion = head.pace.motion(self.scene, self.phases[k : k + 1])
+        place = float(np.asarray(motion.coordinate)[0])
+        value = place % math.tau if self.scene.info.full_turn else place
+        unit = self.known[0].shown_unit(self.scene.length_unit)
+        where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
+        largest = float(sizes[k])
+        return k, f"greatest {stepped(largest, largest / 2000)} {unit} at {where}"
+
+    def _told(self, plot: Plot, below: Rect) -> Iterator[Item]:
+        """Yield below the diagram how large the vector gets, at each speed."""
+        pen = self.pen
+        top = plot.area.bottom + 3.0 * pen.small
+        for n, head in enumerate(self.heads):
+            y = top + 1.5 * n * pen.small
+            start = complex(below.x, y + 0.5 * pen.small)
+            yield line_layer(
+                [np.array([start, start + 2.6 * pen.small])], self._colour(n), 1.2 * pen.line, _DASHES[n % 4]
+            )
+            words = f"{head.pace.words}: {self._largest(head)[1]}"
+            yield Caption(words, (below.x + 3.1 * pen.small, y), pen.small, pen.theme.ink)
+
+
+def _within(plot: Plot, head: _Head) -> NDArray[np.bool_]:
+    """Return which points of a curve lie within a plot."""
+    x, y = plot.x, plot.y
+    return (head.x >= x.low) & (head.x <= x.high) & (head.y >= y.low) & (head.y <= y.high)
