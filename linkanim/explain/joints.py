@@ -42,6 +42,7 @@ from linkanim.explain.steps import (
     GuideLine,
     LoopSide,
     Order,
+    Powers,
     Rates,
     Route,
     Step,
@@ -54,6 +55,7 @@ from linkanim.explain.steps import (
     slide_sides,
 )
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.groups import GroupPoint
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
 from linkanim.units import rounded as told
 from linkanim.units import significant
@@ -532,6 +534,39 @@ def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
     return Reach("That distance", lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
 
 
+def place_group(point: GroupPoint, work: Work) -> None:
+    """Add where a group's joint lies, which no dyad gives: as it is solved."""
+    links = [member.name for member in point.group.free]
+    work.say_once(
+        f"The links {', '.join(links[:-1])} and {links[-1]} can only be solved together: no dyad gives one of"
+        " their joints without the others. What follows of them is linkanim's own solution, not derived here."
+    )
+    x, y = (
+        work.solved(Symbol(letter, point.name), float(value), LENGTH)
+        for letter, value in zip("xy", work.pose.position[point.name], strict=True)
+    )
+    work.points[point.name] = Components(x, y)
+
+
+def move_group(point: GroupPoint, rates: Rates, order: Order) -> None:
+    """Add how a group's joint moves: coefficients as they are solved, rates by the chain rule."""
+    if rates.slopes is not None:
+        rates.let_moving(point.name, NOWHERE, order)
+    else:
+        pose = rates.work.pose.per_input
+        found, measure = (pose.velocity, pose.acceleration)[order - 1][point.name], Powers(1, order)
+        mark = rates.letters.moving[order - 1]
+        x, y = (
+            rates.work.solved(Symbol(letter, point.name, mark), float(value), measure, rates.scale)
+            for letter, value in zip("xy", found, strict=True)
+        )
+        rates.moving.setdefault(point.name, []).append(Components(x, y))
+    if point.name == point.group.points[-1]:
+        for member in point.group.free:
+            if len(member.points) > 1:
+                rates.let_solved(rates.work.frame((member.points[0], member.points[1])), order)
+
+
 @frozen
 class KindSteps:
     """The steps of one kind of joint.
@@ -560,6 +595,7 @@ KINDS: Mapping[type[Joint], KindSteps] = {
     ),
     RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot, reach_of_slot),
     RPP: KindSteps(place_yoke, move_yoke, route_of_guide, loop_of_yoke),
+    GroupPoint: KindSteps(place_group, move_group),
 }
 """The steps of every kind of joint."""
 

@@ -59,6 +59,7 @@ from linkanim.explain.synthesis import synthesis
 from linkanim.explain.whole_motion import whole_motion
 from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import RRR, Body, Crank, CrankTriangle, Cylinder, Damper, Load, Spring, Travel
 from linkanim.mechanics.measures import loaded
 from linkanim.mechanics.motion import Mechanism
@@ -408,6 +409,7 @@ _CARRIED = (
 _BUT = ", or fewer where they are small beside others of their kind"
 _AS_INPUT = "The slider is the input itself, so this is given."
 _NO_LOOP = "There is no loop to close: every joint follows directly from the input."
+_TOGETHER = "The loops of links that can only be solved together are not written down here."
 _SINGULAR = (
     "At a limit or a change point the two linear equations of a dyad are not independent, so no velocities "
     "follow from them. Choose a position beside it."
@@ -602,7 +604,8 @@ class _Draft:
         else:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
         given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
-        steps = tuple(loop.step for loop in loops) or (Step("", (Words(_NO_LOOP),)),)
+        without = _NO_LOOP if group_of(self.linkage) is None else _TOGETHER
+        steps = tuple(loop.step for loop in loops) or (Step("", (Words(without),)),)
         made = synthesis(self.request.scene, self.work.names)
         chapters = (given, Chapter("Vector loops", steps), places, *halves, *rest, *made)
         known = self.request.scene.quantities

@@ -352,6 +352,15 @@ class Work:
         self.given.setdefault(symbol, Given(found, unit, words))
         return found
 
+    def solved(self, symbol: Symbol, value: float, measure: Powers, scale: Scale | None = None) -> Formula:
+        """Add the line of a value that no formula gives, and return the symbol."""
+        scale = scale or self.scale
+        places, unit = scale.decimals(measure), scale.unit_of(measure)
+        text = rounded(value, min(places, self.places.get(symbol, places)))
+        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
+        self.items.append(Given(found, unit, "solved"))
+        return found
+
     def written(self, value: float, measure: Powers) -> str:
         """Return a number as it was stated; where that is too long, with one decimal more than a result."""
         value = (math.degrees(value) if measure.angle else value) + 0.0
@@ -532,6 +541,20 @@ class Rates:
         found = self.let(self.symbol(coordinate, order, letter), formula, measure)
         self.known.setdefault((coordinate, letter), []).append(found)
         return found
+
+    def let_solved(self, frame: int, order: Order) -> None:
+        """Add the line that says how a rigid body of a group turns: as solved, or by the chain rule."""
+        if self.slopes is not None:
+            self.let_rate(frame, self._chain(self.slopes.known[frame, "s"], order), order)
+            return
+        first, second, *_ = self.work.linkage.rigid_bodies[frame]
+        pose = self.work.pose.per_input
+        kinds = (pose.position, (pose.velocity, pose.acceleration)[order - 1])
+        arm, rate = (complex(*kind[second]) - complex(*kind[first]) for kind in kinds)
+        turning = (arm.conjugate() * rate).imag / abs(arm) ** 2
+        symbol, measure = self.symbol(frame, order), Powers(0, order)
+        found = self.work.solved(symbol, turning, measure, self.scale)
+        self.known.setdefault((frame, "s"), []).append(found)
 
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
         """Add the lines that say how a joint moves."""

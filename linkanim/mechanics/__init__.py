@@ -8,6 +8,7 @@ From the ground up; a module imports from those before it only:
     program     formulas compiled: a function of floats, passes over arrays
     search      where a condition ends, a function changes sign, is highest
     linkage     what a linkage is, as data
+    groups      links that are solved together, as data
     solver      closing it; no other room imports this one
     measures    what follows from solved quantities
     centres     instant centres, and Kennedy's theorem

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.forces import Demand, demand, usual_effort
+from linkanim.mechanics.groups import LinkGroup, group_of
 from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
 from linkanim.mechanics.measures import near, output_body, output_slider, pivots_of, said, transmission_angle
 from linkanim.mechanics.motion import Mechanism, Motion
@@ -230,6 +231,8 @@ def four_bar_of(mechanism: Mechanism) -> FourBar | None:
 def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     """Return the class of a linkage, `four_bar` being the loop that its input drives directly."""
     linkage = mechanism.linkage
+    if group := group_of(linkage):
+        return group_name(group)
     dyads = [joint for joint in linkage.joints if joint.dyad]
     geared = any(crank.gear for crank in linkage.cranks)
     slider = " with slider" if any(joint.travels for joint in dyads) else ""
@@ -244,6 +247,16 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         return _driven_name(linkage, dyads, linkage.drive.actuator.noun)
     own = CLOSERS[type(dyads[0])].name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
     return own or f"{_bars(len(dyads))} linkage{slider}"
+
+
+def group_name(group: LinkGroup) -> str:
+    """Name a linkage whose links are solved together by how many there are, and what they have."""
+    words = {6: "six-bar", 8: "eight-bar", 10: "ten-bar", 12: "twelve-bar"}
+    count = len(group.members)
+    sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
+    has = zip(("slider", "slot", "gears"), (*sliding, bool(group.gears)), strict=True)
+    parts = " and ".join(word for word, there in has if there)
+    return f"{words.get(count, f'{count}-bar')} linkage{f' with {parts}' if parts else ''}"
 
 
 def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:
@@ -569,6 +582,11 @@ class Info:
         pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
         links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
         meshes = sum(crank.gear is not None for crank in linkage.cranks)
+        if group := group_of(linkage):
+            links, pins = len(group.members), {point for one in group.members for point in one.points}
+            joints = sum(len(group.at_point(point)) - 1 for point in pins) + len(group.slides)
+            slots, meshes = sum(slide.turns for slide in group.slides), len(group.gears)
+            return Counts(links, joints, 3 * (links - 1) - 2 * joints + slots - meshes)
         return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
 
     @cached_property

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
@@ -156,7 +156,7 @@ class Graph:
         """Return a number as it is recorded: a `Constant` where the graph is `exact`, else a plain float."""
         return Constant(number) if self.exact else float(number)
 
-    def node(self, op: str, *args: Expr | float | str) -> Expr:
+    def node(self, op: str, *args: Expr | float | str | LookUp) -> Expr:
         """Return the node for this operation, the one recorded before where there is one."""
         if op in COMMUTES:
             one, other = args
@@ -204,7 +204,7 @@ class FormGraph(Graph):
         if value.index not in self._samples:
             if value.op == "input":
                 raise TypeError(f"{value.args[0]} has no sample")
-            known = [self.sample(arg) for arg in value.args if not isinstance(arg, str)]
+            known = [self.sample(arg) for arg in value.args if not isinstance(arg, str | LookUp)]
             self._samples[value.index] = SAMPLED[value.op](*known)
         return self._samples[value.index]
 
@@ -224,7 +224,9 @@ class Expr:
 
     __slots__ = ("args", "graph", "index", "op", "positive", "uniform")
 
-    def __init__(self, graph: Graph, op: str, args: tuple[Expr | float | str, ...], index: int) -> None:
+    def __init__(
+        self, graph: Graph, op: str, args: tuple[Expr | float | str | LookUp, ...], index: int
+    ) -> None:
         self.graph = graph
         self.op = op
         self.args = args
@@ -334,12 +336,12 @@ def _factored(value: Expr) -> tuple[Value | None, Expr]:
     if value.op == "mul":
         for factor, rest in (value.args, value.args[::-1]):
             if isinstance(rest, Expr) and not rest.uniform and _is_uniform(factor):
-                assert not isinstance(factor, str)
+                assert isinstance(factor, Expr | int | float)
                 return factor, rest
     return None, value
 
 
-def _is_uniform(value: Expr | float | str) -> bool:
+def _is_uniform(value: Expr | float | str | LookUp) -> bool:
     return value.uniform if isinstance(value, Expr) else True
 
 
@@ -423,6 +425,23 @@ minimum = _function("minimum", min)
 maximum = _function("maximum", max)
 arctan2 = _function("arctan2", math.atan2)
 """The angle of (x, y), from y and x, by the C library: for angles that are shown, not computed with."""
+
+
+class LookUp:
+    """Numbers that a formula looks up by their place; a table is equal to itself alone."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: Iterable[float]) -> None:
+        self.values = tuple(values)
+
+    def at(self, place: Value) -> Value:
+        """Return the entry at a place, which is a whole number."""
+        if isinstance(place, Expr):
+            return place.graph.node("entry", self, place)
+        return self.values[int(place)]
+
+
 select = _function("select", lambda a, b, below, otherwise: below if a < b else otherwise)
 """Of a, b, c and d: c where a < b, else d."""
 SAMPLED: Mapping[str, Callable[..., float]] = {

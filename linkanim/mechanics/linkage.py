@@ -141,7 +141,8 @@ class Joint(Stated):
     """A joint: how it is found from joints before it.
 
     A `dyad` is closed from two constraints, which meet in two points as a rule: `sides` names the two
-    closures, +1 first. A joint that `travels` moves along a line. A `fixed` one belongs to the ground.
+    closures, +1 first. A joint that `travels` moves along a line. A `fixed` one belongs to the ground. One
+    that is `grouped` is solved together with others.
     """
 
     name: str
@@ -150,6 +151,7 @@ class Joint(Stated):
     dyad: ClassVar[bool] = False
     travels: ClassVar[bool] = False
     fixed: ClassVar[bool] = False
+    grouped: ClassVar[bool] = False
 
     @property
     def needs(self) -> tuple[str, ...]:
@@ -190,6 +192,10 @@ class Joint(Stated):
     def named_from(self) -> tuple[int, str, str, str] | None:
         """(+1 or -1, b, p, q) where the closure is named by b lying left or right of p -> q; else None."""
         return None
+
+    def seen_from(self, x: float, y: float) -> Self:
+        """Return the joint as it is known from another origin."""
+        return self
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
         """Return the rigid bodies with this joint added: each of its bars is a further body."""
@@ -1028,8 +1034,7 @@ class Linkage(Stated):
         if self.origin == (0.0, 0.0):
             return self
         x, y = self.origin
-        moved = (joint.seen_from(x, y) if isinstance(joint, Pin) else joint for joint in self.joints)
-        return replace(self, joints=tuple(moved))
+        return replace(self, joints=tuple(joint.seen_from(x, y) for joint in self.joints))
 
     @cached_property
     def extent(self) -> float:
@@ -1090,7 +1095,7 @@ class Linkage(Stated):
                 # a gear turns with the input, whatever its pivot does
                 geared = isinstance(joint, Crank) and joint.gear is not None
                 shared = frozenset.intersection(*before) if before and not geared else frozenset()
-                found[joint.name] = shared | {joint.name}
+                found[joint.name] = frozenset() if joint.grouped else shared | {joint.name}
         return found
 
     def movers(self, names: Iterable[str]) -> tuple[str, ...]:

@@ -84,10 +84,11 @@ class LinkageForm:
     def uniform(self) -> bool:
         """Whether its linkages may be solved together.
 
-        A motor drives them, a swing goes over to the other closure at both ends, and each dyad's own side
-        names its closure.
+        A motor drives them, a swing goes over to the other closure at both ends, each dyad's own side names
+        its closure, and no links are solved together.
         """
-        drive, named = self.linkage.drive, any(joint.named_from for joint in self.linkage.joints)
+        drive, joints = self.linkage.drive, self.linkage.joints
+        named = any(joint.named_from or joint.grouped for joint in joints)
         alone = self.made is None or drive.retraced or named
         return not alone and drive.actuator is MOTOR and self.linkage.near is self.linkage
 

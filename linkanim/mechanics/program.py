@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.arithmetic import WHOLE, Expr, Value, digits_of
+from linkanim.mechanics.arithmetic import WHOLE, Expr, LookUp, Value, digits_of
 from linkanim.mechanics.precise import cosine, sine, square_root
 
 # Where the values of a block are held while its passes run: in result rows, and in buffers beside them.
@@ -108,10 +108,18 @@ FORMULAS = {
     "minimum": "min({}, {})",
     "maximum": "max({}, {})",
     "select": "({2} if {0} < {1} else {3})",
+    "entry": "{0}[int({1})]",
 }
 """In floats and Decimals; only graphs that are `exact` have sines and cosines."""
 _IN_PLACE = frozenset({"add", "sub", "mul", "div", "neg", "sqrt"})
 """Operations into which a formula may be inlined: the others are longer, or use an argument twice."""
+
+
+def _entry(table: NDArray[np.float64], place: NDArray[np.float64], out: Any = None) -> Any:
+    """Return the entries of a table at places, which are whole numbers."""
+    return np.take(table, place.astype(np.intp), out=out, mode="clip")
+
+
 UFUNCS: Mapping[str, Callable[..., Any]] = {
     "add": np.add,
     "sub": np.subtract,
@@ -123,6 +131,7 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
     "arctan2": np.arctan2,
     "minimum": np.minimum,
     "maximum": np.maximum,
+    "entry": _entry,
 }
 
 
@@ -133,7 +142,7 @@ def needed(outputs: Sequence[Value]) -> list[Expr]:
     stay in the cache.
     """
     found: dict[int, Expr] = {}
-    stack: list[Expr | float | str] = list(outputs)
+    stack: list[Expr | float | str | LookUp] = list(outputs)
     while stack:
         node = stack.pop()
         if isinstance(node, Expr) and node.index not in found:
@@ -148,11 +157,16 @@ class _Constants:
     def __init__(self) -> None:
         self._names: dict[object, str] = {}
         self.numbers: dict[str, float] = {}
+        self.tables: dict[str, tuple[float, ...]] = {}
 
-    def name(self, value: Value | str) -> int | str:
+    def name(self, value: Value | str | LookUp) -> int | str:
         """Return a node's index, an input's name or a number's; 0.0 and -0.0, which are equal, have two."""
         if isinstance(value, Expr):
             return value.index if value.op != "input" else str(value.args[0])
+        if isinstance(value, LookUp):
+            table = self._names.setdefault(value, f"t{len(self._names)}")
+            self.tables[table] = value.values
+            return table
         key = value or (repr(value), value)
         name = self._names.get(key)
         if name is None:
@@ -208,7 +222,8 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     operations, results = constants.operations(needed(outputs)), tuple(map(constants.name, outputs))
     code = _scalar_code(tuple(inputs), operations, results, layout)
     marked = {_mark(name): number for name, number in constants.floats.items()}
-    return FunctionType(code.replace(co_consts=_with_numbers(code.co_consts, marked)), dict(FLOAT_NAMES))
+    names = {**FLOAT_NAMES, **constants.tables}
+    return FunctionType(code.replace(co_consts=_with_numbers(code.co_consts, marked)), names)
 
 
 _FIRST_MARK = 2.0**60
@@ -258,7 +273,9 @@ def _inlined(
     for _, op, arguments in operations:
         uses.update(arguments * (1 if op in _IN_PLACE else 2))
     texts: dict[int | str, str] = {
-        value: repr(_mark(value)) for value in uses if isinstance(value, str) and value not in inputs
+        value: repr(_mark(value))
+        for value in uses
+        if isinstance(value, str) and value not in inputs and not value.startswith("t")
     }
     lines, depths = [], dict[int | str, int]()
     for index, op, arguments in operations:
@@ -376,8 +393,8 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
     prelude, numbers = _prelude(uniform, sorted(used), [node for node in nodes if node.uniform])
     operations = constants.operations(node for node in nodes if not node.uniform)
     results = tuple(map(constants.name, outputs))
-    passes = _passes((*arrays, *numbers, *constants.numbers), operations, results)
-    kept = tuple(map(np.array, constants.numbers.values()))
+    kept = tuple(map(np.array, (constants.numbers | constants.tables).values()))
+    passes = _passes((*arrays, *numbers, *constants.numbers, *constants.tables), operations, results)
     return Batch(arrays, tuple(outputs), passes, prelude, kept)
 
 

@@ -27,6 +27,7 @@ from typing import Any
 
 import numpy as np
 
+from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.forces import beside, idle, near_ends
 from linkanim.mechanics.linkage import (
@@ -529,6 +530,11 @@ def reactions(motion: Any) -> Reactions:
 
     Where a lever and the moment over it vanish together, forces are those beside, interpolated.
     """
+    if any(joint.grouped for joint in motion.mechanism.linkage.joints):
+        raise BadInput(
+            "forces in the joints of links that can only be solved together are not worked out; the input's"
+            " effort is"
+        )
     with np.errstate(all="ignore"):
         return _reactions(motion)
 

@@ -21,6 +21,7 @@ from typing import Any
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
+from linkanim.mechanics.groups import GroupGear, GroupLink, GroupPoint, GroupSlide, LinkGroup
 from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS
 from linkanim.scenes.form import Table, on_circle
@@ -341,11 +342,11 @@ class _Dyads:
         """Add the next joint that follows from those that are known; return whether there was one."""
         return any(
             step(link)
-            for step in (self._points, self._geared, self._bars, self._slots, self._yoke)
+            for step in (self.points_of, self._geared, self._bars, self._slots, self._yoke)
             for link in self.pose.links
         )
 
-    def _points(self, link: str) -> bool:
+    def points_of(self, link: str) -> bool:
         """Add a further point of a link whose place is known."""
         axis = self.axis(link)
         for point in self.pose.links[link]:
@@ -551,24 +552,75 @@ def _written(ratio: Fraction) -> int | str:
 # The document with [joints] that says the same.
 
 
-def as_joints(top: Table) -> dict[str, Any] | None:
+class AsJoints(NamedTuple):
+    """A document with [joints], and the joints of a group, which no table of a joint can say."""
+
+    document: dict[str, Any]
+    group: tuple[GroupPoint, ...] = ()
+
+
+def as_joints(top: Table) -> AsJoints | None:
     """Return the document of a file with [points] as one with [joints]; None where it has a fault."""
     pose = posed(top)
     drive = top.attempt(SECTIONS["drive"].read, top)
     if pose is None or drive is None:
         return None
-    return top.attempt(_document, top, pose, drive)
+    return top.attempt(_as_joints, top, pose, drive)
 
 
-def _document(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> dict[str, Any]:
+def _as_joints(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> AsJoints:
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
     driven = _by_slide(chain, drive) if "slide" in drive else _by_motor(chain, drive)
     while chain.grow():
         pass
-    _refuse_unfound(top, chain, drive)
+    group: tuple[GroupPoint, ...] = ()
+    if not {*pose.places} <= chain.known:
+        _refuse_unfound(top, chain, drive)
+        chain = _Dyads(top, pose)
+        driven = _by_motor(chain, drive)
+        while chain.points_of(next(iter(chain.turning))):
+            pass
+        group = _group(chain)
     if "slider" in driven:
         driven["slider"] = _travel(chain, driven["slider"])
+    return AsJoints(_document(top, pose, chain, driven), group)
+
+
+def _group(chain: _Dyads) -> tuple[GroupPoint, ...]:
+    """Return the joints of all links that the crank moves, which are solved together."""
+    pose, (crank, geared) = chain.pose, next(iter(chain.turning.items()))
+    members = tuple(
+        GroupLink(name, points, tuple((pose.places[point].real, pose.places[point].imag) for point in points))
+        for name, points in pose.links.items()
+    )
+    slides = tuple(_group_slide(pose, slide) for slide in pose.slides)
+    gears = tuple(GroupGear(gear.name, gear.links, gear.carrier, gear.ratio) for gear in pose.gears)
+    points = tuple(name for name in _connected(chain) if name not in chain.known)
+    group = LinkGroup(geared.angle, crank, members, points, slides, gears)
+    return tuple(GroupPoint(name, group) for name in points)
+
+
+def _group_slide(pose: PosedLinks, slide: PosedSlide) -> GroupSlide:
+    """Return a slide with the link and the point that it leads."""
+    if slide.link and pose.links[slide.link]:
+        return GroupSlide(slide.name, slide.link, pose.links[slide.link][0], slide.on, slide.angle, False)
+    own = next(name for name in pose.at(slide.point) if name != slide.on)
+    return GroupSlide(slide.name, own, slide.point, slide.on, slide.angle, True)
+
+
+def _connected(chain: _Dyads) -> list[str]:
+    """Return the points, each link's one after the other, from the crank's and the ground's outwards."""
+    pose, found = chain.pose, dict.fromkeys(name for name in chain.pose.places if name in chain.known)
+    waiting = dict(pose.links)
+    while waiting:
+        held = {name: sum(point in found for point in points) for name, points in waiting.items()}
+        link = max(waiting, key=lambda name: held[name])
+        found |= dict.fromkeys(waiting.pop(link))
+    return list(found)
+
+
+def _document(top: Table, pose: PosedLinks, chain: _Dyads, driven: dict[str, Any]) -> dict[str, Any]:
     stated = {key: value for key, value in top.values.items() if key not in (*POSE_KEYS, "bodies")}
     pins = {name: _pin(top, pose, name) for name in pose.links[GROUND]}
     bodies = _bodies(top, chain)
@@ -704,17 +756,16 @@ def _travel(chain: _Dyads, slider: dict[str, Any]) -> dict[str, Any]:
 
 
 def _refuse_unfound(top: Table, chain: _Dyads, drive: Mapping[str, Any]) -> None:
-    """Refuse what no chain of dyads finds, with the joints at which it could be driven instead."""
+    """Refuse what is found neither as a chain of dyads nor as a group behind a crank."""
     pose = chain.pose
-    left = [name for name in pose.places if name not in chain.known]
-    if not left:
+    if "slide" not in drive and "cylinder" not in drive:
         return
     if chain.reason:
         raise top.at(chain.reason, *chain.reason.partition(":")[0].split("."))
     loose = [name for name in pose.links if not chain.stands(name)]
     raise top.table("links").wrong(
-        f"{', '.join(loose)} can only be solved together, as a group of {len(loose)} links; only chains of "
-        f"dyads are solved yet{_way_out(top, pose, drive)}"
+        f"{', '.join(loose)} can only be solved together, as a group of {len(loose)} links, which only a"
+        f" motor that turns can drive yet{_way_out(top, pose, drive)}"
     )
 
 

@@ -22,6 +22,7 @@ from linkanim.bounds import MOST_PROBLEMS
 from linkanim.errors import AssemblyError, BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
+from linkanim.mechanics.groups import GroupPoint
 from linkanim.mechanics.linkage import (
     RRP,
     RRR,
@@ -294,16 +295,20 @@ def read(
     where: str,
     towards: Scene | None = None,
     check: Check | None = None,
+    group: tuple[GroupPoint, ...] = (),
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene that a document describes, None where it describes none, and all its problems.
+
+    `group` are joints that no table says, behind those of the document.
 
     Problems that only follow from others are left out: of things that depend on a joint with a fault only
     their own table is checked, and the assembly is checked only where every joint is sound.
     """
-    top = _opened(document, where)
+    top = _opened(document, where, group)
     if any(key in top for key in POSE_KEYS):
         return _read_points(top, name=name, towards=towards, check=check)
     top, short = _with_joints(top)
+    top = _with_group(top, group)
     top = top.attempt(_settled, top, short) or top
     document = top.values
     bodies = _part(top, "bodies") or {}
@@ -402,10 +407,13 @@ def _read_points(
         if key in top:
             way_out = "list the fixed points in links.ground" if key == GROUND else "keep one of them"
             problems.append(top.error(key, f"does not go with [points]; {way_out}"))
-    document = None if problems else as_joints(top)
-    if document is None:
+    found = None if problems else as_joints(top)
+    if found is None:
         return None, problems
-    scene, further = read(document, name=name, where=top.where, towards=towards, check=check)
+    document, group = found
+    scene, further = read(document, name=name, where=top.where, towards=towards, check=check, group=group)
+    if scene and group:
+        scene = replace(scene, document=top.values)
     return scene, [*problems, *(_of_points(error, top.where) for error in further)]
 
 
@@ -425,13 +433,22 @@ def _part(top: Table, key: str) -> Any:
     return top.attempt(SECTIONS[key].read, top)
 
 
-def _opened(document: Mapping[str, Any], where: str) -> Table:
+def _with_group(top: Table, group: tuple[GroupPoint, ...]) -> Table:
+    """Return the file's table with the joints of a group known."""
+    if not group:
+        return top
+    joints = {**top.context.joints, **{point.name: point for point in group}}
+    return replace(top, context=replace(top.context, joints=joints, rigid=rigid_bodies(joints.values())))
+
+
+def _opened(document: Mapping[str, Any], where: str, group: tuple[GroupPoint, ...] = ()) -> Table:
     """Return the file's table with its unit and its joints' names known; add unknown keys to the problems."""
     top = Table(where, document)
     unit = _part(top, "length_unit") or "mm"
     top.refuse_unknown(SCENE_FILE.keys)
     sections = (document.get(key) for key in ("ground", "joints", "points"))
     names = [*_shorthand_names(top), *(name for section in sections for name in _names(section))]
+    names += [point.name for point in group]
     context = Context(unit, tuple(dict.fromkeys(names)), problems=top.context.problems)
     return replace(top, context=context)
 

@@ -279,6 +279,18 @@ FG = ["F", "G"]
 [drive]
 joint = "G"
 """
+# the lines of A-B, C-D and E-F meet in one point
+AT_A_LIMIT = STEPHENSON.partition("[links]")[2]
+AT_A_LIMIT = f"""
+[points]
+A = [0, 0]
+B = [10, 20]
+C = [30, 20]
+D = [40, 0]
+E = [25, 40]
+F = [60, 40]
+G = [60, 10]
+[links]{AT_A_LIMIT}"""
 
 REFUSED = [
     # what is not said
@@ -346,7 +358,18 @@ REFUSED = [
         "lengths",
         "no pose near",
     ),
-    ("a triad", STEPHENSON, "links", "with the motor at A or D it is one"),
+    (
+        "a group behind a cylinder",
+        STEPHENSON + 'cylinder = { between = ["A", "F"], from = 39, to = 41 }\n',
+        "links",
+        "which only a motor that turns can drive yet; with the motor at A or D it is one",
+    ),
+    (
+        "a group at a limit",
+        AT_A_LIMIT,
+        "links",
+        "stand at a limit",
+    ),
 ]
 
 
@@ -366,9 +389,10 @@ def test_what_is_no_linkage_of_dyads_is_one_sentence(text: str, where: str, reas
 
 
 def test_a_problem_has_its_line() -> None:
-    (problem,) = problems(STEPHENSON, name="my", where="my.toml")
-    assert problem.line == STEPHENSON.splitlines().index("[links]") + 1
-    assert "AB, BCE, CD, EF can only be solved together" in problem.message
+    text = STEPHENSON.replace('EF = ["E", "F"]\n', "")
+    (problem,) = problems(text, name="my", where="my.toml")
+    assert problem.line == text.splitlines().index("[links]") + 1
+    assert "mobility 2" in problem.message
 
 
 def test_a_stephenson_linkage_driven_at_its_first_link_is_a_chain() -> None:

@@ -11,9 +11,11 @@ import numpy as np
 from linkanim.bounds import MOST_DYAD_TURNS, MOST_GEARED_TURNS, MOST_TURNS
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.arithmetic import Constant, Graph, MovingPoint, Slope, Value
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import batch
 from linkanim.mechanics.solver.closing import CLOSERS, Assembly, walk_at
+from linkanim.mechanics.solver.courses import followed_course
 from linkanim.mechanics.solver.input import InputPath, Swing, Turn
 from linkanim.mechanics.solver.loop import Gearing, Loop, arcs_of, gearings, open_arcs
 from linkanim.mechanics.solver.signed_root import OWN_LIMIT, Kind
@@ -28,6 +30,9 @@ def assemble(linkage: Linkage) -> Assembly:
     linkage = linkage.near
     scale = _scale(linkage)
     scaled = linkage if scale == 1.0 else linkage.scaled(scale)
+    if group_of(scaled):
+        path, course = followed_course(scaled)
+        return Assembly(scaled, {}, path, {}, 1.0 / scale, course=course)
     loops = find_loops(scaled, gearings(scaled))
     return _named(
         Assembly(scaled, loops, path, {}, 1.0 / scale)
@@ -99,7 +104,7 @@ def starts(linkage: Linkage) -> list[float]:
 
     Of an input that these loops let turn fully it is its own start. A slider that drives has no start.
     """
-    if linkage.drive.actuator.noun:
+    if linkage.drive.actuator.noun or group_of(linkage):
         return []
     assembly = assemble(linkage)
     arcs = open_arcs(assembly.linkage, assembly.loops)

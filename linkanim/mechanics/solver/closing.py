@@ -48,6 +48,7 @@ from linkanim.mechanics.arithmetic import (
     select,
     sqrt,
 )
+from linkanim.mechanics.groups import GROUND, GroupPoint
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,
@@ -67,6 +68,7 @@ from linkanim.mechanics.linkage import (
 from linkanim.mechanics.precise import context, cosine, direction, exactly, nearest_sum
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import around, samples_a_turn
+from linkanim.mechanics.solver.courses import GroupMotion, reader
 from linkanim.mechanics.solver.input import InputPath, InputState, TravelState
 from linkanim.mechanics.solver.loop import (
     Gearing,
@@ -474,6 +476,8 @@ class Assembly:
     unscale: float = 1.0
     chain: Mapping[str, ChainRoot] = field(default_factory=dict)
     """The roots, of dyads on moving points, that vanish somewhere on the path."""
+    course: GroupMotion | None = None
+    """The motion of its group beyond dyads."""
 
     @property
     def change_points(self) -> Iterator[float]:
@@ -1004,6 +1008,36 @@ def yoke_name(joint: RPP, assembly: Assembly) -> str:
     return "Scotch yoke" if unit(joint.slot)[0] == 0 else "Scotch yoke, oblique slot"
 
 
+def place_group(point: GroupPoint, walk: Walk) -> None:
+    """Add all points of a group and all of its links, by the polynomials of its course."""
+    course, group = walk.assembly.course, point.group
+    if point.name in walk.points or course is None:
+        return
+    read = reader(course, walk.state, walk.assembly.path)
+    placed = {name.rpartition(".")[0] for name in course.coefficients if name.endswith(".x")}
+    for name in group.points:
+        if name in placed:
+            x, y = (read(f"{name}.{part}") for part in "xy")
+            walk.points[name] = _vector(x, y)
+    for name, ((first, second), share) in course.derived.items():
+        start, way = walk.points[first], walk.points[second] - walk.points[first]
+        by = Vec(share.real, share.imag)
+        walk.points[name] = start + MovingPoint(*(part.times(by) for part in way))
+    for member in group.free:
+        if len(member.points) > 1:
+            first, *others = member.points
+            apart = {name: abs(member.place(name) - member.place(first)) for name in others}
+            second = max(apart, key=lambda name: round(apart[name] / max(apart.values()), 6))
+            way = walk.points[second] - walk.points[first]
+            square = apart[second] ** 2
+            turn = way.position.cross(way.velocity) / square
+            bent = way.position.cross(way.acceleration) / square
+            walk.add_piece(Slope(turn, bent), (first, second), way.position)
+    for slide in group.slides:
+        if slide.on == GROUND and not slide.turns:
+            walk.travels[slide.point] = read(slide.name)
+
+
 class Closer(NamedTuple):
     """What solves one kind of joint.
 
@@ -1026,6 +1060,7 @@ CLOSERS: Mapping[type[Joint], Closer] = {
     RRP: Closer(close_slider, loop_of_slider, slider_name),
     RPR: Closer(close_slot, loop_of_slot, slot_name),
     RPP: Closer(close_yoke, name=yoke_name),
+    GroupPoint: Closer(place_group),
 }
 """Every kind that a linkage can be made of."""
 

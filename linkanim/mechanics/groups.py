@@ -1,0 +1,181 @@
+"""Say what a group beyond dyads is, as data: links that can only be solved together.
+
+A group is what no chain of dyads finds: triads, double butterflies, blocks with two pins, slots on moving
+links, gears between moving links. It is given in one pose, which says its lengths and how it is put together.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property
+from typing import ClassVar
+
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.linkage import Joint, Linkage, Point, RigidBody, Slide, Stated
+
+GROUND = "ground"
+
+
+@frozen
+class GroupLink(Stated):
+    """A link of a group: its points, and where they are in the pose."""
+
+    name: str
+    points: tuple[str, ...]
+    places: tuple[Point, ...]
+
+    sized: ClassVar[tuple[str, ...]] = ("places",)
+
+    def place(self, point: str) -> complex:
+        """Return where a point of the link is in the pose."""
+        return complex(*self.places[self.points.index(point)])
+
+
+class GroupSlide(NamedTuple):
+    """A point of a link that slides along a line of the link `on`; `angle` is the line's in the pose (rad).
+
+    The link itself `turns` on the other, as a pin in a slot does; or it does not, as a block.
+    """
+
+    name: str
+    link: str
+    point: str
+    on: str
+    angle: float
+    turns: bool
+
+
+class GroupGear(NamedTuple):
+    """Two links, the second of which turns `ratio` times as far as the first, as their carrier sees it."""
+
+    name: str
+    links: tuple[str, str]
+    carrier: str
+    ratio: Fraction
+
+
+@frozen
+class LinkGroup(Stated):
+    """Links that are solved together, the ground and the driven crank among them, in one pose.
+
+    `at` is the crank's angle in the pose (rad), `crank` its link. `points` are those that the group places,
+    in the order of the linkage's joints.
+    """
+
+    at: float
+    crank: str
+    members: tuple[GroupLink, ...]
+    points: tuple[str, ...]
+    slides: tuple[GroupSlide, ...] = ()
+    gears: tuple[GroupGear, ...] = ()
+
+    sized: ClassVar[tuple[str, ...]] = ("members",)
+
+    @cached_property
+    def by_name(self) -> dict[str, GroupLink]:
+        """Map each link's name to the link."""
+        return {member.name: member for member in self.members}
+
+    @property
+    def free(self) -> Iterator[GroupLink]:
+        """The links whose motion the group gives: all but the ground and the crank."""
+        return (member for member in self.members if member.name not in (GROUND, self.crank))
+
+    def at_point(self, point: str) -> list[GroupLink]:
+        """Return the links that a point is on."""
+        return [member for member in self.members if point in member.points]
+
+
+@frozen
+class GroupPoint(Joint):
+    """A joint that a group places, with all others of the group at once."""
+
+    group: LinkGroup
+
+    sized: ClassVar[tuple[str, ...]] = ("group",)
+    grouped: ClassVar[bool] = True
+
+    @property
+    def stated_lengths(self) -> tuple[float, ...]:
+        """The lengths of its bars."""
+        return tuple(length for _, length in self.bars)
+
+    def seen_from(self, x: float, y: float) -> GroupPoint:
+        """Return the joint with its group as it lies from a place."""
+        members = (
+            replace(one, places=tuple((place[0] - x, place[1] - y) for place in one.places))
+            for one in self.group.members
+        )
+        return replace(self, group=replace(self.group, members=tuple(members)))
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The joints before it on its links."""
+        return tuple(dict.fromkeys(start for start, _ in self.bars))
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """On each of its links the bar from the joint before it, and how long it is."""
+        own = self.group.at_point(self.name)
+        pairs = [(member, start) for member in own if (start := self._before(member))]
+        return tuple((start, abs(one.place(start) - one.place(self.name))) for one, start in pairs)
+
+    def _before(self, member: GroupLink) -> str:
+        """Return the last joint before this one on a link, in the order of the joints; "" for the first."""
+        points = self.group.points
+        known = [name for name in member.points if name not in points]
+        later = points[: points.index(self.name)]
+        return next((name for name in reversed(later) if name in member.points), known[0] if known else "")
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """Each link of which it is the last joint."""
+        points, name = self.group.points, self.name
+        later = points[points.index(name) + 1 :]
+        own = (member for member in self.group.at_point(name) if member.name != GROUND)
+        return tuple(one.points for one in own if len(one.points) > 1 and not {*later} & {*one.points})
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """Itself where links meet in it, and the joints that its bars come from."""
+        own = (self.name,) if len(self.group.at_point(self.name)) > 1 else ()
+        return (*(start for start, _ in self.bars), *own)
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """What slides at it, along a line of its link."""
+        return ()
+
+    @property
+    def at_limit(self) -> str:
+        """The links of its group are stretched out, or folded."""
+        names = [member.name for member in self.group.free]
+        return f"the links {', '.join(names[:-1])} and {names[-1]} can go no further together"
+
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the rigid bodies with all of the group's links, which come with its first point."""
+        if self.name != self.group.points[0]:
+            return bodies
+        return (*bodies, *(frame_of(one) for one in self.group.free if len(one.points) > 1))
+
+
+def frame_of(member: GroupLink) -> RigidBody:
+    """Return where a link's joints lie in its own frame, x along its first two joints."""
+    first = complex(*member.places[0])
+    ways = [complex(*place) - first for place in member.places]
+    apart = next((way for way in ways if way), 1 + 0j)
+    along = apart / abs(apart)
+    return {name: way / along for name, way in zip(member.points, ways, strict=True)}
+
+
+def group_of(linkage: Linkage) -> LinkGroup | None:
+    """Return the group that a linkage has beyond its dyads; None where it has none."""
+    return next((joint.group for joint in linkage.joints if isinstance(joint, GroupPoint)), None)
+
+
+def direction_of(angle: float) -> complex:
+    """Return the unit vector of an angle."""
+    return complex(math.cos(angle), math.sin(angle))

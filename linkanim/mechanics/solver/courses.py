@@ -1,0 +1,497 @@
+"""Keep the motion of links that are solved together as polynomials of the phase, to all digits.
+
+Its parts, in reading order:
+
+- The limits of the closure that was followed, found in 38 digits.
+- The input's path: a turn, a swing between two limits and back on the other closure, or on the same.
+- The course: each point's coordinates, piece by piece polynomials of the phase.
+
+A piece is a polynomial of degree 15 through the solutions at Chebyshev's places, which are worked out in 38
+digits; it is halved where its last coefficients are not below the last digit. So places and rates keep their
+digits at limits as anywhere, no equation is solved again, and a pose needs none before it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.errors import AssemblyError
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.angles import FULL_TURN, Sum, exact_angle, reduced, two_sum
+from linkanim.mechanics.arithmetic import LookUp, Moving, Slope, Value, arctan2, maximum, minimum, rint
+from linkanim.mechanics.groups import LinkGroup, group_of
+from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.precise import context, nodes
+from linkanim.mechanics.program import Array
+from linkanim.mechanics.solver.following import (
+    BITS,
+    ONE,
+    FixedPoint,
+    Followed,
+    LinkEquations,
+    Whole,
+    fixed,
+    followed,
+    in_floats,
+    system_of,
+    units_of,
+)
+from linkanim.mechanics.solver.input import InputPath, InputState, Swing, Turn
+
+# The limits of the closure that was followed, found in 38 digits.
+
+_ROUNDS = 12
+_SHARP = 1e-9
+"""The least bend of the input beside a limit: with less, two closures meet there besides."""
+
+
+class TurningPlace(NamedTuple):
+    """A place at which the input turns back: the unknowns, and the direction of the path there."""
+
+    y: Whole
+    tangent: Array
+
+
+def limit_beside(system: LinkEquations, y: Array, tangent: Array) -> TurningPlace:
+    """Return the limit next to a place: F = 0 and J v = 0 with v of length 1, whose input stands still."""
+    exact, size = FixedPoint(system), system.size
+    v = tangent.copy()
+    v[-1] = 0.0
+    v /= np.linalg.norm(v)
+    row = v.copy()
+    at, along = fixed(y.reshape(-1, 1)), fixed(v.reshape(-1, 1))
+    for _ in range(_ROUNDS):
+        here, way = in_floats(at)[:, 0], in_floats(along)[:, 0]
+        whole = np.zeros((2 * size, 2 * size))
+        jacobian = system.jacobian(here[None])[0]
+        whole[: size - 1, :size] = jacobian
+        whole[size - 1 : 2 * size - 2, :size] = system.bend(here, way)
+        whole[size - 1 : 2 * size - 2, size:] = jacobian
+        whole[-2, size:], whole[-1, -1] = row, 1.0
+        off = np.concatenate(
+            [
+                in_floats(exact.residual(at))[:, 0],
+                in_floats(exact.along(at, along))[:, 0],
+                [float(in_floats(fixed(row.reshape(-1, 1)) * along >> BITS).sum()) - 1.0, way[-1]],
+            ]
+        )
+        try:
+            step = np.linalg.solve(whole, -off)
+        except np.linalg.LinAlgError:
+            break
+        at = at + fixed(step[:size].reshape(-1, 1))
+        along = along + fixed(step[size:].reshape(-1, 1))
+        if np.abs(step[:size]).max() < 1e-34:
+            break
+    here, way = in_floats(at)[:, 0], in_floats(along)[:, 0]
+    if not np.isfinite(here).all() or np.abs(here - y).max() > 1.0:
+        raise _unclear(y)
+    return TurningPlace(at[:, 0], way / np.linalg.norm(way))
+
+
+def _unclear(y: Array) -> AssemblyError:
+    return AssemblyError(
+        f"its input stops near {math.degrees(float(y[-1])):.6g} deg where more than two closures meet;"
+        " make one length longer or shorter"
+    )
+
+
+# The input's path: a turn, a swing between two limits and back on the other closure, or on the same.
+
+
+class PathBranch(NamedTuple):
+    """Places in order along which the input goes one way: unknowns (n, m) and directions (n, m)."""
+
+    y: Array
+    tangent: Array
+
+
+class InputRoute(NamedTuple):
+    """The path of the input, and the branches of the closure on it: one, or one each way."""
+
+    path: InputPath
+    branches: tuple[PathBranch, ...]
+    ends: tuple[Whole, Whole] | None = None
+    """The input at its lower and its upper limit."""
+
+
+def route_of(linkage: Linkage, system: LinkEquations, found: Followed) -> InputRoute:
+    """Return the path of a linkage's input and its branches, from the closure that was followed."""
+    first, last = found.places[0], found.places[-1]
+    end = last.y + wrapped(first.y - last.y, system.links)
+    y = np.array([*(place.y for place in found.places), end])
+    tangents = np.array([*(place.tangent for place in found.places), first.tangent])
+    drive, group = linkage.drive, group_of(linkage)
+    assert group is not None
+    if not found.limits:
+        return InputRoute(Turn(drive.start, round(found.change / math.tau)), (PathBranch(y, tangents),))
+    ends = [limit_beside(system, *_between(system, y, tangents, n)) for n in found.limits]
+    (high, stop), (low, back), offset = (ends[0], found.limits[0]), (ends[-1], found.limits[-1]), end - y[0]
+    bottom, top = in_floats(low.y), in_floats(high.y)
+    up = PathBranch(
+        np.vstack([bottom - offset, y[back:-1] - offset, y[:stop], top]),
+        np.vstack([low.tangent, tangents[back:-1], tangents[:stop], high.tangent]),
+    )
+    down = PathBranch(
+        np.vstack([top, y[stop:back], bottom]),
+        np.vstack([high.tangent, tangents[stop:back], low.tangent]),
+    )
+    both = len(ends) == 2 and abs(offset[-1]) < 1.0 and not drive.retraced
+    lower, upper = (_sum(limit.y[-1]) for limit in (low, high))
+    lower = lower - FULL_TURN.times(float(round(offset[-1] / math.tau)))
+    repeats = math.ceil(abs(float(upper - lower)) / math.tau)
+    swing = Swing(lower, upper, (group.points[0],) * 2, repeats, keeps=(not both,) * 2)
+    return InputRoute(swing, (up, down) if both else (up,))
+
+
+def wrapped(away: Array, links: int) -> Array:
+    """Return a difference of unknowns with whole turns taken off its angles."""
+    away, turns = away.copy(), [*range(2, 3 * links, 3), len(away) - 1]
+    away[turns] -= math.tau * np.rint(away[turns] / math.tau)
+    return away
+
+
+def _between(system: LinkEquations, y: Array, tangents: Array, n: int) -> tuple[Array, Array]:
+    """Return about where, before the place n, the input's rate along the path is zero, and the direction."""
+    before, after = tangents[n - 1][-1], tangents[n][-1]
+    step = tangents[n - 1] @ (y[n] - y[n - 1])
+    share = before / (before - after)
+    at = y[n - 1] + step * share * tangents[n - 1]
+    return at, tangents[n - 1] * (1 - share) + tangents[n] * share
+
+
+def _sum(whole: int) -> Sum:
+    number = Fraction(whole, ONE)
+    high = float(number)
+    return Sum(high, float(number - Fraction(high)))
+
+
+# The course: each point's coordinates, piece by piece polynomials of the phase.
+
+_ROUNDED = 1e-14
+"""A correction by rounding: the next one would be below 1e-27."""
+COUNT = 16
+"""The coefficients of a piece."""
+_LAST_BIT = 66
+"""The last two coefficients of a piece are below this power of a half, in lengths of the system."""
+_LONG = 5
+"""Pieces halved no more often are not short."""
+_FINEST = 16
+"""Pieces are halved so many times at the most, from one for the whole period."""
+
+
+@frozen
+class GroupMotion:
+    """The motion of a group over its period: for each coordinate a table of each coefficient.
+
+    `bins` equal parts of the period, from minus half of it, each have a piece's number. `derived` points lie
+    on links with two points known: at their first plus ζ times the way to the second.
+    """
+
+    turns: int
+    bins: int
+    piece: LookUp
+    centres: LookUp
+    shares: LookUp
+    coefficients: Mapping[str, tuple[LookUp, ...]]
+    derived: Mapping[str, tuple[tuple[str, str], complex]]
+
+    @property
+    def pieces(self) -> int:
+        """The number of pieces."""
+        return len(self.centres.values)
+
+
+def followed_course(linkage: Linkage) -> tuple[InputPath, GroupMotion]:
+    """Return the path of a linkage's input, and the course of its group; AssemblyError without one."""
+    system = system_of(linkage)
+    route = route_of(linkage, system, followed(system))
+    group = group_of(linkage)
+    assert group is not None
+    placed, derived = carriers(linkage, group)
+    period = route.path.turns if isinstance(route.path, Turn) else 1
+    fitted = _Fit(system, route, period, placed).pieces()
+    return route.path, _course(fitted, period, derived, system.shrunk)
+
+
+def carriers(
+    linkage: Linkage, group: LinkGroup
+) -> tuple[dict[str, tuple[int, str]], dict[str, tuple[tuple[str, str], complex]]]:
+    """Return the points whose coordinates are kept, each with a link and its number, and the derived ones."""
+    numbers = {group.crank: 0, **{member.name: n for n, member in enumerate(group.free, start=1)}}
+    known = [joint.name for joint in linkage.joints if joint.name not in group.points]
+    placed: dict[str, tuple[int, str]] = {}
+    derived: dict[str, tuple[tuple[str, str], complex]] = {}
+    waiting = list(group.points)
+    while waiting:
+        for member in group.free:
+            first, *others = [name for name in member.points if name in known] or [""]
+            start = member.place(first) if first else 0j
+            second = next((name for name in others if member.place(name) != start), "")
+            for name in [name for name in member.points if second and name in waiting]:
+                share = (member.place(name) - start) / (member.place(second) - start)
+                derived[name] = (first, second), share
+                known.append(name)
+                waiting.remove(name)
+        if waiting:
+            # the point on most links goes first: it shows most of them
+            name = max(waiting, key=lambda point: (len(group.at_point(point)), -waiting.index(point)))
+            member = next(one for one in group.at_point(name) if one.name in numbers)
+            placed[name] = numbers[member.name], name
+            known.append(name)
+            waiting.remove(name)
+    return placed, derived
+
+
+class MotionPiece(NamedTuple):
+    """A polynomial of each quantity on one of 2^depth parts of the period."""
+
+    depth: int
+    part: int
+    coefficients: Whole
+    """(quantities, COUNT), in the part's own variable from -1 to 1."""
+
+
+class _Fit:
+    """Fits pieces to the solutions over the period, which is `period` turns."""
+
+    def __init__(
+        self,
+        system: LinkEquations,
+        route: InputRoute,
+        period: int,
+        placed: Mapping[str, tuple[int, str]],
+    ) -> None:
+        self.system, self.route, self.period = system, route, period
+        self.exact, self.placed = FixedPoint(system), placed
+
+    @property
+    def names(self) -> list[str]:
+        """The quantities in their order."""
+        points = [f"{name}.{part}" for name in self.placed for part in "xy"]
+        return [*points, *(slot.name for slot in self.system.slots)]
+
+    def pieces(self) -> tuple[list[str], list[MotionPiece]]:
+        """Return the quantities' names and the pieces in order."""
+        places = sum(len(branch.y) for branch in self.route.branches)
+        depth = max(math.ceil(math.log2(places)) - 1, 3)
+        waiting, found = [(depth, part) for part in range(1 << depth)], list[MotionPiece]()
+        if len(self.route.branches) == 1 and not isinstance(self.route.path, Turn):
+            waiting = [one for one in waiting if one[1] >= 1 << depth - 1]
+        while waiting:
+            fitted = self._fitted(waiting)
+            waiting = []
+            for piece in fitted:
+                if _is_close(piece):
+                    found.append(piece)
+                elif piece.depth == _FINEST:
+                    raise AssemblyError(
+                        "its links come so near to a change point that no float tells their two closures"
+                        " apart; make one length longer or shorter"
+                    )
+                else:
+                    waiting += [(piece.depth + 1, 2 * piece.part + n) for n in (0, 1)]
+        if len(self.route.branches) == 1 and not isinstance(self.route.path, Turn):
+            found += [_mirrored(piece) for piece in found]
+        return self.names, sorted(found, key=lambda piece: piece.part / (1 << piece.depth))
+
+    def _fitted(self, parts: Sequence[tuple[int, int]]) -> list[MotionPiece]:
+        places, inverse = _inverse_powers()
+        half = self.period * PI_WHOLE
+        phases = [
+            half * (2 * part + 1) // (1 << depth) - half + (half * place // (1 << depth) >> BITS)
+            for depth, part in parts
+            for place in places
+        ]
+        values = self._solved(np.array(phases, np.object_)).reshape(-1, len(parts), COUNT)
+        found = np.einsum("qpk,ck->pqc", values, inverse) >> BITS
+        return [MotionPiece(*part, coefficients) for part, coefficients in zip(parts, found, strict=True)]
+
+    def _solved(self, phases: Whole) -> Whole:
+        """Return the quantities (q, N) at phases within half a period of zero."""
+        inputs = self._inputs(phases)
+        y = self._guessed(in_floats(phases), in_floats(inputs))
+        for _ in range(4):
+            step = np.linalg.solve(self.system.jacobian(y)[:, :, :-1], self.system.residual(y)[..., None])[
+                ..., 0
+            ]
+            y[:, :-1] -= step
+            if np.abs(step).max() < 1e-10:
+                break
+        inverse = np.linalg.inv(self.system.jacobian(y)[:, :, :-1])
+        at = fixed(y.T)
+        at[-1] = inputs
+        for _ in range(_ROUNDS):
+            off: Array = in_floats(self.exact.residual(at)).T
+            step = np.asarray(inverse @ off[..., None])[..., 0].T
+            at[:-1] -= fixed(step)
+            if np.abs(step).max() < _ROUNDED:
+                break
+        units = self.exact.units(at)
+        rows: list[Any] = []
+        for link, name in self.placed.values():
+            rows += self.exact.point(at, units, link, name)
+        slides = 3 * self.system.links
+        return np.array([*rows, *at[slides : slides + len(self.system.slots)]], np.object_)
+
+    def _inputs(self, phases: Whole) -> Whole:
+        """Return the input at phases."""
+        path = self.route.path
+        if isinstance(path, Turn):
+            start = exact_angle(path.start).fraction
+            whole = round((self.system.at - path.start) / math.tau)
+            first = int(start * ONE) + 2 * whole * PI_WHOLE
+            begin = int(Fraction(float(self.route.branches[0].y[0, -1])) * ONE)
+            span = 2 * self.period * PI_WHOLE
+            # the branch begins at the pose
+            return np.asarray((phases + first - begin) % span + begin, np.object_)
+        assert isinstance(path, Swing)
+        low, high = (int(end.fraction * ONE) for end in (path.low, path.high))
+        cosine, _ = units_of(phases)
+        return np.asarray((low + high) // 2 - ((high - low) // 2 * cosine >> BITS), np.object_)
+
+    def _guessed(self, phases: Array, inputs: Array) -> Array:
+        """Return the unknowns (N, m) near the solutions, by cubics between the places that were followed."""
+        found = np.empty((len(phases), self.system.size))
+        for n, branch in enumerate(self.route.branches):
+            own = np.ones(len(phases), bool) if len(self.route.branches) == 1 else (phases < 0) == (n == 1)
+            found[own] = _on_branch(branch, inputs[own])
+        found[:, -1] = inputs
+        return found
+
+
+PI_WHOLE = int(Fraction("3.14159265358979323846264338327950288419716939937510582097494459") * ONE)
+
+
+def _on_branch(branch: PathBranch, inputs: Array) -> Array:
+    """Return the unknowns on a branch at inputs, by Hermite's cubic in the path's length."""
+    y, tangents = branch
+    ways = np.diff(y, axis=0)
+    lengths = np.einsum("ij,ij->i", tangents[:-1], ways)
+    leaning = np.einsum("ij,ij->i", tangents[:-1], tangents[1:])
+    first, last = tangents[:-1] * lengths[:, None], tangents[1:] * (lengths / leaning)[:, None]
+    sense = 1.0 if y[-1, -1] > y[0, -1] else -1.0
+    at = np.clip(np.searchsorted(sense * y[:, -1], sense * inputs, side="right") - 1, 0, len(ways) - 1)
+
+    def cubic(share: Array, n: NDArray[np.intp], column: Any) -> Array:
+        s = share if share.ndim == np.ndim(y[n, column]) else share[:, None]
+        rest = 1 - s
+        found: Array = (
+            y[n, column]
+            + ways[n, column] * s * s * (3 - 2 * s)
+            + first[n, column] * s * rest * rest
+            - last[n, column] * s * s * rest
+        )
+        return found
+
+    low, high = np.zeros(len(inputs)), np.ones(len(inputs))
+    for _ in range(40):
+        middle = (low + high) / 2
+        below = sense * cubic(middle, at, -1) < sense * inputs
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return cubic((low + high) / 2, at, slice(None))
+
+
+@lru_cache(maxsize=1)
+def _inverse_powers() -> tuple[list[int], Whole]:
+    """Return Chebyshev's places in fixed point, and the matrix that makes coefficients of values there."""
+    places = nodes(COUNT)
+    with localcontext(context()) as here:
+        here.prec = 80
+        rows = np.array([[place**k for k in range(COUNT)] for place in places], np.object_)
+        unit = np.array([[Decimal(int(i == k)) for k in range(COUNT)] for i in range(COUNT)], np.object_)
+        whole = np.concatenate([rows, unit], axis=1)
+        for n in range(COUNT):
+            pivot = n + max(range(COUNT - n), key=lambda k: abs(whole[n + k, n]))
+            whole[[n, pivot]] = whole[[pivot, n]]
+            whole[n] = whole[n] / whole[n, n]
+            for k in range(COUNT):
+                if k != n:
+                    whole[k] = whole[k] - whole[n] * whole[k, n]
+        inverse = [[_whole(entry) for entry in row] for row in whole[:, COUNT:]]
+        return [_whole(place) for place in places], np.array(inverse, np.object_)
+
+
+def _whole(number: Decimal) -> int:
+    return int(number * ONE)
+
+
+def _is_close(piece: MotionPiece) -> bool:
+    """Tell whether the last coefficients, as those of Chebyshev's polynomials, are below the last digit.
+
+    Those of a short piece are below that of its second derivative, by the phase.
+    """
+    last = np.abs(piece.coefficients[:, -2:]) >> np.array([COUNT - 3, COUNT - 2], np.object_)
+    return bool(last.max() < 1 << BITS - _LAST_BIT - 2 * max(piece.depth - _LONG, 0))
+
+
+def _mirrored(piece: MotionPiece) -> MotionPiece:
+    """Return the piece of the same places at the opposite phases."""
+    signs = np.array([1 - 2 * (k % 2) for k in range(COUNT)], np.object_)
+    return MotionPiece(piece.depth, (1 << piece.depth) - 1 - piece.part, piece.coefficients * signs)
+
+
+def _course(
+    fitted: tuple[list[str], list[MotionPiece]], period: int, derived: Mapping[str, Any], shrunk: float
+) -> GroupMotion:
+    names, pieces = fitted
+    depth = max(piece.depth for piece in pieces)
+    bins = [n for n, piece in enumerate(pieces) for _ in range(1 << depth - piece.depth)]
+    half = period * math.pi
+    halves = [half / (1 << piece.depth) for piece in pieces]
+    centres = [
+        float(Fraction(period * PI_WHOLE * (2 * piece.part + 1 - (1 << piece.depth)), ONE << piece.depth))
+        for piece in pieces
+    ]
+    values = np.array([in_floats(piece.coefficients) for piece in pieces]) / shrunk
+    tables = {
+        name: tuple(LookUp(values[:, n, k].tolist()) for k in range(COUNT)) for n, name in enumerate(names)
+    }
+    shares = LookUp([1.0 / one for one in halves])
+    return GroupMotion(
+        period, 1 << depth, LookUp([*map(float, bins)]), LookUp(centres), shares, tables, derived
+    )
+
+
+def reader(course: GroupMotion, state: InputState, path: InputPath) -> Callable[[str], Moving]:
+    """Return what reads a quantity of a course, with its rates, where the input is in a state."""
+    phase, rest, pace = _phase(state, path)
+    _, near = reduced(phase, rest, 2.0 * course.turns)
+    half = course.turns * math.pi
+    place = rint(near * (course.bins / (2 * half)) + (course.bins / 2 - 0.5))
+    piece = course.piece.at(minimum(maximum(place, 0.0), course.bins - 1.0))
+    share = course.shares.at(piece)
+    t = (near - course.centres.at(piece)) * share
+    rate = share * pace.value
+    square, bend = rate * rate, share * pace.rate
+
+    def read(name: str) -> Moving:
+        *others, last = course.coefficients[name]
+        value, first, second = last.at(piece), 0.0, 0.0  # type: tuple[Value, Value, Value]
+        for table in reversed(others):
+            second = second * t + first
+            first = first * t + value
+            value = value * t + table.at(piece)
+        return Moving(value, first * rate, second * (square * 2.0) + first * bend)
+
+    return read
+
+
+def _phase(state: InputState, path: InputPath) -> tuple[Value, Value, Slope]:
+    """Return the phase of an input's state, what the float lacks of it, and its pace."""
+    if isinstance(path, Turn):
+        phase, rest = two_sum(state.angle, float(state.origin - exact_angle(path.start)))
+        return phase, rest, Slope(state.rate, state.second)
+    assert state.ends is not None
+    if state.phase is not None:
+        return state.phase, 0.0, state.phase_pace
+    angle = arctan2(state.ends.root_v.value, state.ends.root_u.value) * 2.0
+    return angle, 0.0, state.phase_pace
