@@ -28,12 +28,12 @@ from linkanim.cli.commands.solve import rows as rows_of_tree
 from linkanim.errors import LinkanimError
 from linkanim.explain.solution import PoseRequest, solution
 from linkanim.export import csv_head, csv_rows
-from linkanim.mechanics.angles import STATED
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.measures import rounding_of
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity, recorded
+from linkanim.mechanics.tolerances import STATED
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import Instant, Values
 from linkanim.picture.chart import chart_panel, pen_for

@@ -2,6 +2,7 @@
 
 From the ground up; a module imports from those before it only:
 
+    tolerances  what counts as nothing, as one, or as near
     arithmetic  formulas written once, for floats, arrays and blocks
     angles      circular functions, unit vectors, exact sums of two floats
     precise     fifty digits, for what is worked out once

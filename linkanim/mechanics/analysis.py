@@ -31,6 +31,18 @@ from linkanim.mechanics.quantities import input_symbol, phrase
 from linkanim.mechanics.search import changes_by_row, highest, in_blocks, own_rows, sign_changes
 from linkanim.mechanics.solver.closing import CLOSERS, walk_at
 from linkanim.mechanics.solver.signed_root import Kind
+from linkanim.mechanics.tolerances import (
+    BESIDE_AN_EXTREME,
+    CHANGE_POINT,
+    EQUAL_LINKS,
+    FOUND,
+    NO_WAY,
+    NONE_LEFT,
+    PARALLEL,
+    RIGID,
+    SAME_PLACE,
+    TURNING_WITH_IT,
+)
 from linkanim.units import degrees, short, significant, typeset
 
 # In which step each joint is solved: the causal chain from the input to the output.
@@ -56,17 +68,6 @@ def solving_steps(linkage: Linkage) -> Mapping[str, int]:
 # Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. An angle past 90° between two bars counts as
 # its supplement, here as everywhere. Each kind of dyad gives the angle from the factors U and W of its root;
 # the angle is extreme where the dyad's separation is extreme, and where U = W.
-
-NEARLY = 2.0**-40
-"""How near to an extreme, as a share of the phase: the angle there is off by the square of that."""
-NONE_LEFT = 1e-12
-"""A factor below this share of its greatest value, in a dyad whose bars fall into one line, is none."""
-RIGID = 2.0**-44
-"""A rate below this share of its separation is rounding."""
-
-
-_FOUND = 1e-9
-"""How closely a search finds the phase of the least angle (rad)."""
 
 
 class Transmission(NamedTuple):
@@ -107,7 +108,7 @@ def _where_least(mechanism: Mechanism, dyad: str) -> float:
     worst = float(places[np.nanargmax(np.concatenate([*map(negative, in_blocks(places))]))])
     found = highest(negative, worst, math.tau / mechanism.assembly.samples)
     end = math.pi * round(found / math.pi)  # where bars in one line, or an end of the input, often are
-    return (end if abs(found - end) < _FOUND else found) % (math.tau * mechanism.periods)
+    return (end if abs(found - end) < FOUND else found) % (math.tau * mechanism.periods)
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -142,7 +143,7 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 
     places = assembly.sampled
     with np.errstate(all="ignore"):
-        rows, extremes = changes_by_row(moving, places, NEARLY)
+        rows, extremes = changes_by_row(moving, places, BESIDE_AN_EXTREME)
         whose = np.concatenate([np.arange(count), rows // len(parts[0])])
         where = np.concatenate([np.repeat(places[:1], count), extremes])
         u, w = (own_rows(factors, whose + half, where) for half in (0, count))
@@ -311,7 +312,7 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
                 ground = abs(pins[fixed] - pins[pivot])
                 along = places[joint.name] - places[moving]
                 apart = along - (places[fixed] - places[pivot])
-                sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
+                sign = 1 if np.abs(apart).max() <= PARALLEL * ground else -1
                 links = _links(ground, crank, a, b)
                 yield FourBar(joint.name, links, sign, _change_point_count(ground, crank, a, b))
                 break
@@ -327,8 +328,8 @@ def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
 
 
 def _change_point_count(g: float, r: float, a: float, b: float) -> int:
-    """Return how many change points the lengths have, each of them rounded: to 1e-12 of the perimeter."""
-    least = 1e-12 * (g + r + a + b)
+    """Return how many change points the lengths have, each of them rounded."""
+    least = CHANGE_POINT * (g + r + a + b)
     return int(abs(a + b - g - r) <= least) + int(min(abs(g - r - a + b), abs(g - r + a - b)) <= least)
 
 
@@ -347,7 +348,7 @@ def _part(bar: FourBar, pick: Callable[..., str]) -> str:
 
 def _change_point_name(bar: FourBar) -> str:
     g, r, a, b = bar.links.values()
-    same = partial(math.isclose, rel_tol=1e-15)
+    same = partial(math.isclose, rel_tol=EQUAL_LINKS)
     if same(g, a) and same(r, b):
         return "parallelogram" if bar.sign > 0 else "antiparallelogram"
     if (same(g, r) and same(a, b)) or (same(g, b) and same(a, r)):
@@ -436,8 +437,6 @@ def _counted(words: str, number: int) -> str:
 
 
 # What kind of linkage it is, how far its input goes, and what a lecturer says of it.
-
-SAME_ANGLE = 1e-9
 
 
 @frozen
@@ -690,12 +689,8 @@ class Counts(NamedTuple):
     mobility: int
 
 
-_BESIDE = 1e-4
-"""In phase: a body that turns back this near to an end of the input turns back with it."""
 _AWAY, _FLAT = 0.1, 1e-5
 """A rate beside a place of less than `_FLAT` times that at `_AWAY` from it has a multiple zero there."""
-_ONE_PLACE = 1e-5
-"""In phase: places that are known to few digits only, and differ by less, may be one."""
 
 
 class _ToAndFro(NamedTuple):
@@ -727,7 +722,7 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     if not len(travel):
         return _ToAndFro(0.0, None, None)
     span = float(np.ptp(travel))
-    near = SAME_ANGLE * span
+    near = SAME_PLACE * span
     backs, forwards = (turning[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
     forth = (forwards - backs[:, None]) % whole
     row, column = np.unravel_index(int(forth.argmin()), forth.shape)
@@ -750,9 +745,9 @@ def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Arra
     if not mechanism.full_turn:
         stops, ends = mechanism.stops or ("", ""), np.rint(found / math.pi)
         all_turns = [kept or not stop for kept, stop in zip(mechanism.keeps, stops, strict=True)]
-        near = np.abs(found - math.pi * ends) < _BESIDE
+        near = np.abs(found - math.pi * ends) < TURNING_WITH_IT
         found = np.where(near & np.where(ends % 2, *all_turns[::-1]), math.pi * ends, found)
-    near, *far = (np.abs(turning(found + way)) for way in (_BESIDE, _AWAY, -_AWAY))
+    near, *far = (np.abs(turning(found + way)) for way in (TURNING_WITH_IT, _AWAY, -_AWAY))
     flat = near <= _FLAT * np.maximum(*far)
     return np.array(
         [_steepest(mechanism, at) if level else at for at, level in zip(found, flat, strict=True)]
@@ -765,7 +760,7 @@ def _steepest(mechanism: Mechanism, place: float) -> float:
     def turning(near: Array) -> Mapping[str, Array]:
         return mechanism.solve(phase=near, speed=1.0, derivatives=1).angular_velocity
 
-    around = place + _BESIDE * np.array([-1.0, 1.0])
+    around = place + TURNING_WITH_IT * np.array([-1.0, 1.0])
     steps = {
         name: float(rate[1] - rate[0]) for name, rate in turning(around).items() if rate[0] * rate[1] < 0
     }
@@ -773,7 +768,7 @@ def _steepest(mechanism: Mechanism, place: float) -> float:
         return place
     steepest = max(steps, key=lambda name: abs(steps[name]))
     at = float(sign_changes(lambda near: turning(near)[steepest], around)[0])
-    return at if abs(at - place) < _ONE_PLACE else place
+    return at if abs(at - place) < NO_WAY else place
 
 
 def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:
@@ -818,7 +813,7 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
 def _worst(info: Info, found: Transmission) -> str:
     """Return the least transmission angle in words, its dyad and where the input is then."""
     least = f"{significant(math.degrees(found.least), 3)}° at {found.dyad}"
-    if found.greatest - found.least <= SAME_ANGLE:
+    if found.greatest - found.least <= SAME_PLACE:
         return f"μ = {least}, all the way"
     linkage = info.mechanism.linkage
     place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).coordinate)

@@ -16,6 +16,7 @@ from typing import Any
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Constant, Expr, Value, rint, select
+from linkanim.mechanics.tolerances import STATED
 from linkanim.units import PI_REST, Angle
 
 # Sines and cosines out of + - × ÷ and rint alone.
@@ -57,8 +58,6 @@ DENOMINATOR = (1.0, -1215.4805641571577, 330009.01549134793, -22584873.118746653
 
 Highest powers first. Times one factor, ψ N is the sine and D the cosine of half the angle.
 """
-STATED = 2.0**-51
-"""Share of a phase, or of half a turn where that is more, by which a stated phase may be off."""
 
 
 def reduced(angle: Value, rest: Value, turns: float) -> Pair:

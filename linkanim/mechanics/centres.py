@@ -17,10 +17,8 @@ import numpy as np
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding
-from linkanim.mechanics.measures import ROUNDING, as_complex, between, components, cross, over, size, steady
-
-_STRAIGHT = 1e-12
-"""A turn that moves the linkage's extent by less than this share of a link's way is rounding."""
+from linkanim.mechanics.measures import as_complex, between, components, cross, over, size, steady
+from linkanim.mechanics.tolerances import ROUNDING, STRAIGHT
 
 Link = Body | None
 """A body, or None for the ground."""
@@ -188,7 +186,7 @@ def pole(motion: Any, body: Body, other: Link = None) -> tuple[Any, Any]:
     turning, moving = abs(rate) * linkage.extent, size((vx, vy))
     found = x - over(vy, rate), y + over(vx, rate)
     away = np.where(moving > 0, math.inf, math.nan) + still
-    turns = turning > _STRAIGHT * moving
+    turns = turning > STRAIGHT * moving
     return np.where(turns, found[0], away)[()], np.where(turns, found[1], away)[()]
 
 

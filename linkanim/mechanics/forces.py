@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring, holding
 from linkanim.mechanics.measures import (
-    ROUNDING,
     between,
     components,
     cross,
@@ -39,13 +38,8 @@ from linkanim.mechanics.measures import (
 )
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import highest, in_blocks
+from linkanim.mechanics.tolerances import AT_END, IDLE, ROUNDING
 
-_ROUNDING = 1e-13
-"""A mean below this share of the mean size of its values is rounding."""
-_ENDING = 1e-6
-"""Within this share of a phase of where the input turns back, power and pace may both have no digits."""
-_IDLE = 10.0
-"""Power of no more than this many times its rounding errors is none."""
 _BESIDE = 2.0**-6, (0.8, -0.4, 4 / 35, -1 / 70)
 """Where effort is 0/0: steps of phase to both sides of the place, at which it is read instead; their weights.
 
@@ -95,7 +89,7 @@ def input_effort(motion: Any) -> Any:
         found = _quotient(motion, power, _MOVING)
     unbounded = ~np.isfinite(power.weight) & ~np.isnan(motion.phase)
     found = np.where(unbounded, np.inf, found)[()] if np.any(unbounded) else found
-    if not motion.acceleration or not np.any(near := stands(motion, _ENDING)):
+    if not motion.acceleration or not np.any(near := stands(motion, AT_END)):
         return found
     stops, still = stands(motion), power.weight <= power.rounding
     starting = _quotient(motion, _power(motion, _STARTING), _STARTING)
@@ -114,7 +108,7 @@ def _quotient(motion: Any, power: _Power, rates: _Rates) -> Any:
 
 def near_ends(motion: Any) -> Any:
     """Tell where the input stands so near an end that power and pace may both have no digits."""
-    return stands(motion, _ENDING)
+    return stands(motion, AT_END)
 
 
 def idle(motion: Any, near: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -127,7 +121,7 @@ def idle(motion: Any, near: NDArray[np.bool_]) -> NDArray[np.bool_]:
     if np.any(near):
         phase = np.broadcast_to(motion.phase, near.shape)[near]
         there = _power(_solved(motion, near, math.pi * np.rint(phase / math.pi)), _MOVING)
-        found[near] = (there.weight > there.rounding) & (np.abs(there.total) <= _IDLE * there.rounding)
+        found[near] = (there.weight > there.rounding) & (np.abs(there.total) <= IDLE * there.rounding)
     return found
 
 
@@ -311,4 +305,4 @@ def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> floa
 def _mean(values: Array) -> float:
     """Return the mean, 0 where it is nothing but rounding errors."""
     mean = float(values.mean())
-    return 0.0 if abs(mean) <= _ROUNDING * float(np.abs(values).mean()) else mean
+    return 0.0 if abs(mean) <= ROUNDING * float(np.abs(values).mean()) else mean

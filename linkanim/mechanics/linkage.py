@@ -21,6 +21,7 @@ from typing import Any, ClassVar, Self
 
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.tolerances import FAR, ONE_POINT
 from linkanim.units import short, stepped, unit_of
 
 # What a joint is, whatever its kind: what all kinds have, and the lines along which sliders travel.
@@ -488,10 +489,6 @@ class RPP(Guided):
 #
 # Points of a body other than its pins: coupler points, third pins of a plate, corners of a rigid triangle.
 
-_FAR = 64.0
-"""How many times as far from (0, 0) as a linkage is large its pins may lie for it to be solved from there."""
-_ONE_POINT = 1e-12
-
 
 def rigid_bodies(joints: Iterable[Joint]) -> tuple[RigidBody, ...]:
     """Return the sets of joints that keep their distances, the ground first; joints in solved order.
@@ -512,7 +509,7 @@ def holding(bodies: Iterable[RigidBody], names: Iterable[str]) -> int | None:
 def coincide(frame: RigidBody, first: str, second: str) -> bool:
     """Tell whether two joints of a body are one point, so that no direction runs from one to the other."""
     size = max(abs(frame[first]), abs(frame[second]))
-    return abs(frame[first] - frame[second]) <= _ONE_POINT * size
+    return abs(frame[first] - frame[second]) <= ONE_POINT * size
 
 
 def share_of(frame: RigidBody, on: tuple[str, str], at: tuple[float, float]) -> complex:
@@ -1018,14 +1015,14 @@ class Linkage(Stated):
     def origin(self) -> Point:
         """A place among the pins from which all is solved, where they lie far from (0, 0); else that itself.
 
-        A coordinate is far where it exceeds `_FAR` times the linkage's size: then its distance from that of
+        A coordinate is far where it exceeds `FAR` times the linkage's size: then its distance from that of
         another pin is exact.
         """
         moving = (joint for joint in self.joints if not joint.fixed)
         size = math.fsum(abs(length) for joint in moving for length in joint.stated_lengths)
         axes = [[pin.position[axis] for pin in self.pins] or [0.0] for axis in (0, 1)]
         size += sum(max(along) - min(along) for along in axes)
-        x, y = (along[0] if min(map(abs, along)) > _FAR * size else 0.0 for along in axes)
+        x, y = (along[0] if min(map(abs, along)) > FAR * size else 0.0 for along in axes)
         return x, y
 
     @cached_property

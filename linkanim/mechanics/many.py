@@ -31,11 +31,10 @@ from linkanim.mechanics.solver.closing import Assembly, Closing, Walk, walked
 from linkanim.mechanics.solver.input import InputState, Turn, swing_by_phase
 from linkanim.mechanics.solver.loop import Loop, gearings
 from linkanim.mechanics.solver.signed_root import Kind, Unlike
+from linkanim.mechanics.tolerances import CLEAR
 
 SAMPLES = 128
 """Phases of a turn of the quickest crank at which dyads down the chain are looked at."""
-NEAR = 0.1
-"""The sine of the angle between two bars below which they may fall into one line between two samples."""
 AT_ONCE = 1 << 16
 MOST = 32
 """Programs of a form; linkages for which none of them is right are solved by themselves."""
@@ -65,7 +64,7 @@ class Program(NamedTuple):
             sines = self.sines(*given, np.repeat(phases, count)).reshape(-1, len(phases), count)
             sines = sines if last is None else np.concatenate([last, sines], axis=1)
             steps, last = np.abs(np.diff(sines, axis=1)), sines[:, -1:]
-            clear &= (sines > NEAR).all(axis=(0, 1)) & (sines[:, 1:] > 2 * steps).all(axis=(0, 1))
+            clear &= (sines > CLEAR).all(axis=(0, 1)) & (sines[:, 1:] > 2 * steps).all(axis=(0, 1))
         return clear
 
 

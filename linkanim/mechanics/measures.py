@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.angles import STATED
 from linkanim.mechanics.linkage import Body, Crank, Damper, Line, Linkage, Load, Spring, holding, share_of
 from linkanim.mechanics.precise import direction as exact_direction
+from linkanim.mechanics.tolerances import ASIDE, FEWER_ERRORS, ROUNDING, SLOW, STATED, STRAIGHT
 
 # What a solved number says at a phase: a value, 0, unbounded, or no value at all.
 #
@@ -48,9 +48,6 @@ from linkanim.mechanics.precise import direction as exact_direction
 # **At rest.** How another path bends, and where another pole is, is a quotient of rates, and no matter of
 # time: 0/0 at a dead centre of the link that moves it, and a quotient of rounding errors beside it. There the
 # rates by that link's own way are taken, which go on, or those by the input's (`steady`).
-
-ROUNDING = 1e-13
-"""Share of the linkage's extent, moved at the input's speed, below which a number is rounding."""
 
 
 def settled(found: Any, rounding: Any) -> Any:
@@ -121,15 +118,6 @@ def _size(unit: str, extent: float) -> float:
 # components, and numpy's functions, so that both have the same bits. NaN stands for no value at an instant,
 # infinity for an unbounded one (`settled`). Symbols are those of the textbooks on mechanisms: ω, α, v, a;
 # h and f for first kinematic coefficients.
-
-_STRAIGHT = 1e-12
-"""Below this share a cross product of velocity and acceleration is rounding."""
-_FLAT = 1e-2
-"""Share of an acceleration's usual rounding errors that is left where all its terms are small."""
-_SLOW = 1 / 16
-"""Rates have fewer digits of what moves by less, in extents of the linkage for each radian of the input."""
-_ASIDE = 1e-3
-"""How far beside a place, in phase, is looked at a path of which no rates say how it bends there."""
 
 
 def components(vector: Any) -> tuple[Any, Any]:
@@ -232,7 +220,7 @@ def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
     An acceleration is known to within `least` only.
     """
     speed, bend = size(velocity), abs(cross(velocity, acceleration))
-    straight = bend <= speed * np.maximum(_STRAIGHT * size(acceleration), least)
+    straight = bend <= speed * np.maximum(STRAIGHT * size(acceleration), least)
     return over(speed * speed * speed, np.where(straight, 0.0, bend)[()])
 
 
@@ -280,7 +268,7 @@ def steady(motion: Any, joints: Iterable[str], read: Callable[[Any], tuple[Any, 
     ways.append(lambda: motion.mechanism.solve(phase=motion.phase, speed=1.0))
     share, found = _moved(motion, read)
     for way in ways:
-        poor = share < _SLOW
+        poor = share < SLOW
         if not np.any(poor):
             break
         better, others = _moved(way(), read)
@@ -576,14 +564,14 @@ def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
 
     def read(motion: Any) -> tuple[Any, Any]:
         rates = _rates(motion, prefix, part)
-        return size(rates[0]), curvature_radius(*rates, _FLAT * rounding_of(motion, "{}/s²", 2))
+        return size(rates[0]), curvature_radius(*rates, FEWER_ERRORS * rounding_of(motion, "{}/s²", 2))
 
     moves, found = steady(motion, joints, read)
     turns = ~moves & ~np.isnan(motion.phase)
     if not np.any(turns):
         return found
     solve = motion.mechanism.solve
-    near, far = (read(solve(phase=motion.phase + n * _ASIDE, speed=1.0))[1] for n in (1, 2))
+    near, far = (read(solve(phase=motion.phase + n * ASIDE, speed=1.0))[1] for n in (1, 2))
     with np.errstate(invalid="ignore"):
         cusped = np.where(far > 1.5 * near, 0.0, near)
         return np.where(turns, np.where(np.isinf(near), near, cusped), found)[()]

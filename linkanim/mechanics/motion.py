@@ -46,9 +46,10 @@ from linkanim.mechanics.search import around
 from linkanim.mechanics.solver import limits
 from linkanim.mechanics.solver.assembly import assemble, starts
 from linkanim.mechanics.solver.closing import Assembly, Walk, walked
-from linkanim.mechanics.solver.input import SAME_PLACE, InputState, LimitDistances, retraced
+from linkanim.mechanics.solver.input import InputState, LimitDistances, retraced
 from linkanim.mechanics.solver.limits import Separations, open_places, separations
 from linkanim.mechanics.solver.loop import Gearing
+from linkanim.mechanics.tolerances import SAME_PLACE
 
 # Where solved quantities lie in rows, and how they are read from there.
 #

@@ -19,16 +19,13 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.tolerances import EQUALLY_FAR, NARROW
 
 _TURNING = math.cos(math.radians(30.0))
 """Cosine of 30°: between samples whose directions differ by more, the distance may have several minima."""
 _PARTS = 16
 """The number of parts into which such a step is divided."""
-_EXACT = 1e-13
-"""The width at which a bracket is narrow enough, in radians of phase."""
 _ROUNDS = 100
-_EQUAL = 1e-9
-"""Distances that differ by less than this share of the course's size are equal."""
 _BACK = 1.5
 """The factor by which a pose counts as farther that lies backwards: past a dead centre the motion goes on."""
 
@@ -68,7 +65,7 @@ class PointPath:
         target, period = complex(*place), 2 * math.pi * self.mechanism.periods
         found = list(self._minima(target, slack))
         least = min(far for far, _ in found) if found else 0.0
-        equal = least + slack + _EQUAL * self.size
+        equal = least + slack + EQUALLY_FAR * self.size
         shifts = (math.remainder(phase - near, period) for far, phase in found if far <= equal)
 
         def way_to(shift: float) -> float:
@@ -134,7 +131,7 @@ def _root(function: Callable[[float], float], low: tuple[float, float], high: tu
     """
     (a, at_a), (b, at_b) = low, high
     for _ in range(_ROUNDS):
-        if b - a <= _EXACT or at_b == 0.0:
+        if b - a <= NARROW or at_b == 0.0:
             break
         middle = a - at_a * (b - a) / (at_b - at_a)
         if not a < middle < b:

@@ -48,6 +48,7 @@ from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.reactions import GROUND, guided, meeting, meshing
 from linkanim.mechanics.search import sign_changes
+from linkanim.mechanics.tolerances import LEVEL
 from linkanim.units import shown
 
 _STANDARD = {
@@ -125,8 +126,6 @@ NO_NAMES: Mapping[str, str] = MappingProxyType({})
 _NEAREST = 10
 _LONG = 60
 """Characters of a token: more take long to compare, and none has them."""
-_LEVEL = 1e-9
-"""Share of a quantity's greatest size; a quantity that changes by less stands still."""
 
 
 Path = tuple[str | int, ...]
@@ -181,7 +180,7 @@ class Quantity:
         values = np.asarray(self.read(cycle), float)
         found = values[np.isfinite(values)]
         return bool(
-            found.size and np.ptp(found) > max(_LEVEL * np.abs(found).max(), 10 * self.rounding(cycle))
+            found.size and np.ptp(found) > max(LEVEL * np.abs(found).max(), 10 * self.rounding(cycle))
         )
 
     def shown_unit(self, length_unit: str) -> str:

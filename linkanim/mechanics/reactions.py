@@ -50,7 +50,6 @@ from linkanim.mechanics.linkage import (
     holding,
 )
 from linkanim.mechanics.measures import (
-    ROUNDING,
     Vector,
     between,
     components,
@@ -68,13 +67,9 @@ from linkanim.mechanics.measures import (
 )
 from linkanim.mechanics.precise import direction
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.tolerances import IDLE, NO_LEVER, ROUNDING
 
 GROUND = "ground"
-_AT = 2.0**-50
-"""Share of a bar's length below which a lever is none: the last digits of the phase."""
-
-_IDLE = 10.0
-"""A moment of no more than this many times its rounding errors is none."""
 
 Member = int | str
 """A body: its place among the rigid bodies, the ground being 0; of a block the joint it slides with."""
@@ -301,13 +296,13 @@ class _Balance:
     def quotient(self, moments: Vector, lever: Any, lengths: tuple[float, ...]) -> Vector:
         """Return moments over a lever; where there is none, and no moments either, it is noted as `idle`."""
         if np.any(gone := np.equal(lever, 0.0)):
-            least = np.where(np.isfinite(self.noise), _IDLE * self.noise * math.prod(lengths), 0.0)
+            least = np.where(np.isfinite(self.noise), IDLE * self.noise * math.prod(lengths), 0.0)
             self.idle = self.idle | (gone & (size(moments) <= least))
         return over(moments[0], lever), over(moments[1], lever)
 
     def lever(self, joint: Joint) -> Any:
         """Return the lever of a dyad's reactions; 0 where it vanishes to the last digits of a phase."""
-        found, least = self.motion.lever[joint.name], _AT * max(length for _, length in joint.bars)
+        found, least = self.motion.lever[joint.name], NO_LEVER * max(length for _, length in joint.bars)
         return np.where(np.abs(found) <= least, 0.0, found)[()]
 
 

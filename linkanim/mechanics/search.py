@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.program import Array, Bools
+from linkanim.mechanics.tolerances import FINEST
 
 Indices = NDArray[np.intp]
 
@@ -20,9 +21,6 @@ SAMPLES_A_TURN, SAMPLES_A_GEARED_TURN = 1440, 96
 """Phases at which each drive period is looked at, and the least number for a turn of any crank."""
 BLOCK, AT_ONCE = 1024, 1 << 16
 """Places worked out at a time where a function has many rows, and where it has few."""
-
-FINEST = 2.0**-70
-"""Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
 
 _ROUNDS = 5
 

@@ -110,11 +110,11 @@ class Thing:
     """Something that can be let go."""
 
 
-ENDING = [(signal.SIGINT, 130), (signal.SIGTERM, 143)]
-ENDING += [(signal.SIGHUP, 129)] if hasattr(signal, "SIGHUP") else []
+AT_END = [(signal.SIGINT, 130), (signal.SIGTERM, 143)]
+AT_END += [(signal.SIGHUP, 129)] if hasattr(signal, "SIGHUP") else []
 
 
-@pytest.mark.parametrize(("number", "code"), ENDING)
+@pytest.mark.parametrize(("number", "code"), AT_END)
 def test_a_signal_unwinds_the_work_and_the_handler_is_put_back(number: signal.Signals, code: int) -> None:
     def mine(number: int, frame: object) -> None: ...
 
@@ -133,7 +133,7 @@ def test_a_signal_unwinds_the_work_and_the_handler_is_put_back(number: signal.Si
 
 
 # A terminal that closes sends several, and Ctrl-C is pressed twice.
-@pytest.mark.parametrize("second", [number for number, _ in ENDING])
+@pytest.mark.parametrize("second", [number for number, _ in AT_END])
 def test_a_second_signal_does_not_cut_the_clean_up_short(second: signal.Signals) -> None:
     cleaned: list[str] = []
 
@@ -148,7 +148,7 @@ def test_a_second_signal_does_not_cut_the_clean_up_short(second: signal.Signals)
     assert cleaned == ["cleaned"]
 
 
-@pytest.mark.parametrize(("number", "code"), ENDING)
+@pytest.mark.parametrize(("number", "code"), AT_END)
 def test_a_signal_while_an_object_is_let_go_ends_us_all_the_same(
     number: signal.Signals, code: int, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -18,11 +18,9 @@ from linkanim.mechanics.solver.closing import CLOSERS, Assembly, walk_at
 from linkanim.mechanics.solver.courses import followed_course
 from linkanim.mechanics.solver.input import InputPath, Swing, Turn
 from linkanim.mechanics.solver.loop import Gearing, Loop, arcs_of, gearings, open_arcs
-from linkanim.mechanics.solver.signed_root import OWN_LIMIT, Kind
+from linkanim.mechanics.solver.signed_root import Kind
 from linkanim.mechanics.solver.strokes import STROKES
-
-JUST_AFTER = 1e-6
-"""Phase at which a closure is judged where it is ambiguous at the start itself."""
+from linkanim.mechanics.tolerances import JUST_AFTER, OWN_LIMIT
 
 
 def assemble(linkage: Linkage) -> Assembly:

@@ -86,7 +86,6 @@ from linkanim.mechanics.solver.loop import (
     place,
 )
 from linkanim.mechanics.solver.signed_root import (
-    SMALLEST,
     Reduced,
     SignedRoot,
     four_bar_root,
@@ -95,6 +94,7 @@ from linkanim.mechanics.solver.signed_root import (
     slider_root,
     slot_root,
 )
+from linkanim.mechanics.tolerances import BESIDE_AN_END, SMALLEST
 
 # The signed root of a dyad on moving points that limits the input, or passes change points.
 #
@@ -113,9 +113,6 @@ from linkanim.mechanics.solver.signed_root import (
 # that place, and
 #
 #     q' = r r'/q        q'' = (r r'' + r'² F₀/q²)/q
-
-BESIDE_AN_END = 1e-3
-"""Sine of a place's phase below which half the way to the swing's end gives all digits of the distance."""
 
 
 class PolynomialFit(NamedTuple):

@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
-    STATED,
     Half,
     Sum,
     cosine_of,
@@ -40,6 +39,7 @@ from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, are_input
 from linkanim.mechanics.linkage import CrankTriangle
 from linkanim.mechanics.precise import context, cosine, exactly, nearest_sum, sine
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.tolerances import AT_END, NEARLY_ZERO, SAME_PLACE, STATED, TWO_FLOATS
 
 # The state of the input at one instant: its angle, rates, and the ends of its swing.
 #
@@ -49,8 +49,6 @@ from linkanim.mechanics.program import Array
 
 HalfForm = Callable[..., Half]
 """Returns half of an angle, the sum of two numbers; `quarters=` are half turns to be added to the angle."""
-NOTHING = 2.0**-100
-"""The difference of two sums of two floats is rounding below this."""
 
 
 @frozen
@@ -138,7 +136,7 @@ def _half_turns(angle: Sum) -> tuple[int, Sum]:
     """Return the whole number of half turns nearest an angle, and what is left of it."""
     count = round(float(angle) / math.pi)
     left = angle - quarter_turns(2 * count)
-    return count, left if abs(left.high) > NOTHING else Sum(0.0)
+    return count, left if abs(left.high) > TWO_FLOATS else Sum(0.0)
 
 
 def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
@@ -261,12 +259,6 @@ def _rated(root: Value, sign: float, pace: Slope) -> Moving:
 # A path is found once for a linkage; every pose is computed from it. `InputPath` says what every path
 # answers, `ThereAndBack` is the base of paths that turn back, `strokes.Stroke` that of paths that a length
 # drives.
-
-SAME_PLACE = 1e-9
-"""Places that differ by less are one: angles by this in radians, travels by this share of the whole."""
-
-AT_END = 1e-6
-"""In phase: at a dyad's own limit, where the input turns back, its separation is extreme without touching."""
 
 Limit = tuple[Sum, str | None]
 """The phase of a limit, and the dyad that sets it; None where the path itself ends."""
@@ -572,8 +564,6 @@ class Turn(InputPath):
 # The path of an input that swings between two limits.
 
 SOLVED_FROM = ("x", "u", "v", "rest")
-NEARLY_ZERO = 1e-8
-"""Half a last digit of this number is more than the error of a limit."""
 
 
 @frozen

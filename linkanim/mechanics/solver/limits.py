@@ -27,7 +27,7 @@ from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.precise import context, exactly, interpolated, nearest_sum, nodes, sine_and_cosine
 from linkanim.mechanics.program import Array, Bools, batch, decimals
 from linkanim.mechanics.search import ends_of
-from linkanim.mechanics.solver.assembly import JUST_AFTER, most_turns, precise, resigned
+from linkanim.mechanics.solver.assembly import most_turns, precise, resigned
 from linkanim.mechanics.solver.closing import (
     AT_ITS_LIMIT,
     Assembly,
@@ -46,8 +46,30 @@ from linkanim.mechanics.solver.closing import (
     walked,
     walking,
 )
-from linkanim.mechanics.solver.input import AT_END, InputPath, Limit, Swing, swing_by_angle
+from linkanim.mechanics.solver.input import InputPath, Limit, Swing, swing_by_angle
 from linkanim.mechanics.solver.loop import ONE_PLACE
+from linkanim.mechanics.tolerances import (
+    AT_END,
+    BARELY,
+    BESIDE_AN_EXTREME,
+    FLAT,
+    JUST_AFTER,
+    LAST,
+    NARROWEST,
+    NARROWEST_AT_A_LIMIT,
+    NEARBY,
+    NO_DIGITS,
+    NO_WAY,
+    OFF,
+    ROUNDED_LENGTHS,
+    SAME_PLACE,
+    SHORT,
+    STANDSTILL,
+    TOLERABLE,
+    TOUCHING,
+    UNEVEN,
+    USED_UP,
+)
 
 # Where the root of a dyad on moving points vanishes, or nearly, and what is smooth there, in fifty digits.
 #
@@ -82,25 +104,11 @@ STEPS, SLOW = 40, 12
 """The most steps of Newton's method, and the count after which they are summed as a geometric series."""
 NUDGE = Decimal(10) ** -15
 CONVERGED = Decimal(10) ** -25
-NEARBY = 1e-6
-"""How far a zero may lie from where floats found it, in phase."""
 POINTS = 20
 POINTS_OF_A_DIP = 32
 """Samples of a dip's fit, which has to hold as far as the margin lacks digits: that may be far."""
 WIDEST = 0.5
-NARROWEST = 1e-4
-"""The narrowest stretch of a fit: beside a narrower one the margin itself would have no digits."""
-NARROWEST_AT_A_LIMIT = 1e-12
-"""The same at a limit, beside which the margin grows the faster, the nearer another limit lies behind it."""
 TRIES = 16
-SHORT = 0.05
-"""Half the longest stretch on which a dyad fails to close that is taken as one place."""
-LAST = 1e-17
-TOLERABLE = 1e-13
-"""The share of the first coefficient that a fit's last ones should not exceed, and the one they must not.
-
-Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loop changes its side.
-"""
 
 
 class ExactWalk:
@@ -382,24 +390,8 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
 # decides whether it closes: no sample does. The extremes are bracketed by samples, which are halved wherever
 # the margin U·W could come to zero between them, until rate and slope leave no room for another extreme.
 
-TOUCHING = 1e-12
-"""Share of a margin's scale within which floats cannot tell its sign, where the pins are near the origin."""
-OFF = 2.0**-46
-"""The same share for pins as far from the origin as the longest bar is long, taken where it is the larger: it
-grows with that distance, as coordinates lose digits of a bar."""
-BARELY = 1 / 64
-"""Share of its greatest value below which a margin that turns back costs results their digits."""
 MOST_TOUCHING = 24
 """Extremes in a turn of the fastest crank at which floats cannot tell a margin's sign."""
-ROUNDING = 2.0**-48
-"""Share of the longest bar by which rounded lengths may be off: within it bars just fall into line."""
-UNEVEN = 0.1
-"""How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
-STANDSTILL = 2.0**-40
-"""The share of the rates around it below which a rate is nothing but rounding."""
-FLAT = 2.0**-52
-"""Share of a margin's scale by which it changes between samples that need no others between them."""
-FINEST = 2.0**-40
 HALVINGS = 32
 FEW = 16
 """The most cells that are halved twice at a time: a call costs more than their samples."""
@@ -749,7 +741,7 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
         return np.asarray((sampled(phases).rows[row][dyads, each] > 0) == start)
 
     each = np.arange(len(dyads))
-    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
+    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], BESIDE_AN_EXTREME)
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
@@ -771,7 +763,7 @@ def _settled_separation(exact: ExactWalk, name: str, phases: Array) -> Iterator[
     extreme = extremes(exact, name)
     for phase in phases.tolist():
         place, gap, reach = extreme(phase)
-        closes = 0 if abs(gap) <= ROUNDING * exact.assembly.linkage.longest else 1 if gap > 0 else -1
+        closes = 0 if abs(gap) <= ROUNDED_LENGTHS * exact.assembly.linkage.longest else 1 if gap > 0 else -1
         yield Extreme(phase, place, closes, reach)
 
 
@@ -800,12 +792,6 @@ def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
 # At a change point the margin touches zero without crossing it, as the dyad's bars fall into one line for an
 # instant; what drives the dyad is at an extreme there.
 
-USED_UP = 1e-10
-"""A margin below this share of its greatest value is at its limit."""
-NO_WAY = 1e-5
-"""A swing narrower than this is a single place, but for rounding."""
-ALIKE = 1e-9
-"""Ranges that differ by less, in phase, are equally wide, but for rounding."""
 NO_RANGE = "the input has no range on which every dyad can be closed"
 KEPT = ((False, False), (True, False), (False, True), (True, True))
 """At which ends a swing may keep its closures, and come back the way it went, the best first."""
@@ -961,7 +947,7 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
     first, last = _runs(is_open)
     around = (first <= home) & (home <= last)
     width = phases[last] - phases[first]
-    widest = around if around.any() else width >= width.max() - ALIKE
+    widest = around if around.any() else width >= width.max() - SAME_PLACE
     distance = np.where(widest, np.abs((phases[first] + phases[last]) / 2 - phases[home]), math.inf)
     chosen = int(distance.argmin())
     return int(first[chosen]), int(last[chosen])
@@ -997,10 +983,6 @@ def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
     return int(before[0]) if math.isnan(margins[row]) and len(before) else row
 
 
-LEAST = 1e-40
-"""Share of a margin's scale below which it has no digits left."""
-
-
 def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
     """Return the assembly with the zeros of the dyads on moving points, and the margins on it.
 
@@ -1023,7 +1005,7 @@ def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
     touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
     dips = tuple(Dip(path.place(phase), path.periods, path.amplitude) for phase in found.dips(name))
-    root = ChainRoot((*known.zeros, *touches), found.scales[name] * LEAST, dips=dips)
+    root = ChainRoot((*known.zeros, *touches), found.scales[name] * NO_DIGITS, dips=dips)
     if not (root.zeros or dips):
         return assembly
     if (passed := len(root.zeros) + len(dips)) > MOST_CHANGE_POINTS:

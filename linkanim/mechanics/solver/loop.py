@@ -56,6 +56,7 @@ from linkanim.mechanics.solver.signed_root import (
     sign_of_root,
     signed_root,
 )
+from linkanim.mechanics.tolerances import CANCELLED, NEARLY_A_KITE, NO_RANGE, TWO_FLOATS
 
 # The triangle of a dyad: two points, the bars from them, and what the bars' rates need.
 #
@@ -78,12 +79,6 @@ from linkanim.mechanics.solver.signed_root import (
 # each logarithm is about cot(ψ/2) times a simple fraction, and these fractions sum to zero: only the share of
 # the constants is formed. Where the constant of F or G outweighs the square, the square's share is formed.
 
-ALIKE = 1 / 4
-"""Share of the longest by which ground and crank, and the two bars, differ at most next to a kite."""
-
-CANCELLED = 16.0
-"""A sum counts as cancelled where its square times this is below the square of its terms' difference."""
-
 
 class Links(NamedTuple):
     """Ground, crank, coupler and rocker, and ground less crank as small parts to be summed."""
@@ -98,7 +93,7 @@ class Links(NamedTuple):
     def kite(self) -> bool:
         """Whether the pins nearly meet, and the bars are nearly as long as each other."""
         longest = max(self.ground, self.crank)
-        return max(abs(math.fsum(self.short)), abs(self.coupler - self.rocker)) <= ALIKE * longest
+        return max(abs(math.fsum(self.short)), abs(self.coupler - self.rocker)) <= NEARLY_A_KITE * longest
 
     def inverted(self) -> Links:
         """Return the links seen from the crank: crank and ground swap places, as do coupler and rocker."""
@@ -398,10 +393,6 @@ def moving_factors(square: Value, lengths: tuple[float, float]) -> tuple[Value, 
 STRAIGHT = Sum(0.0)
 
 
-ONE_POINT = 2.0**-100
-"""Share of a crank's length within which two pins are one point."""
-
-
 class Gearing(NamedTuple):
     """How a crank turns with the input: angle = ratio × θ + offset."""
 
@@ -524,7 +515,7 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     ground = _between(linkage, crank.pivot, end)
     if ground and are_inputs(ground.length, crank.length):
         return ground
-    if ground and ground.length < ONE_POINT * crank.length:
+    if ground and ground.length < TWO_FLOATS * crank.length:
         return None
     if ground and gap(ground.length, ground.rest, -crank.length) == 0:
         return ground._replace(length=crank.length, rest=0.0)
@@ -607,8 +598,6 @@ def _written(pin: Pin, *, turned: bool) -> Ground:
 
 # The ranges of the input that the loops on its own pin leave open.
 
-NO_RANGE = 1e-12
-"""Ranges that overlap by no more than this, in radians, touch."""
 ONE_PLACE = (
     "it can be put together at one angle of the input only, so nothing could move; "
     "make one length a little longer or shorter"

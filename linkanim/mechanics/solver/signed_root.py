@@ -50,6 +50,7 @@ from linkanim.mechanics.arithmetic import (
 from linkanim.mechanics.arithmetic import root as root_of
 from linkanim.mechanics.precise import context, nearest_sum, sine_and_cosine
 from linkanim.mechanics.solver.input import Ends
+from linkanim.mechanics.tolerances import CLOSE, CLOSEST, KITE, OWN_LIMIT, SMALLEST, WIDE
 
 # Where the signed root of a loop closed from a crank pin vanishes: its two factors U and W.
 #
@@ -60,10 +61,6 @@ from linkanim.mechanics.solver.input import Ends
 
 _STEPS, _SETTLED = 8, Decimal("1e-24")
 """The most steps of Newton's method, and the size of a step after which the next is below all digits."""
-ALIKE = 2.0**-51
-"""Share of the perimeter that rounded lengths of a kite may differ by."""
-WIDE = 1 / 16
-"""Share of K above which U is its greatest value less K sin²(ψ/2)."""
 
 
 class Kind(Enum):
@@ -193,7 +190,7 @@ def alike(ground: Sum, crank: float, bars: tuple[float, float]) -> bool:
     """Tell whether a kite's pins meet: ground and crank, and both bars, differ by rounding alone."""
     if are_inputs(ground.high, crank, *bars):
         return False
-    reach = ALIKE * math.fsum((float(ground), crank, *bars))
+    reach = KITE * math.fsum((float(ground), crank, *bars))
     return bool(max(abs((ground - Sum(float(crank))).constant), abs(bars[0] - bars[1])) <= reach)
 
 
@@ -236,9 +233,6 @@ def _unless(touching: bool, most: Fraction) -> float:
 # The same roots where lengths are inputs of the program: of many linkages at once, none of them within the
 # last digits of a change point. Where a gap is a small share of the lengths in it, what rounding takes from
 # their sums is added.
-
-CLOSE, CLOSEST = 2.0**-5, 2.0**-44
-"""Shares of the perimeter below which a gap needs all digits of its lengths, and below which it is none."""
 
 Gap = tuple[tuple[Value, Value], tuple[Value, Value]]
 """Two lengths, and two whose sum is to be taken from that of the first."""
@@ -357,10 +351,7 @@ def _slot_of_inputs(ground: Value, crank: Value, offset: Value, reference: Sum) 
 #
 # A dyad whose ends both move has no such factors; `closing` says what stands in for them.
 
-SMALLEST = 1e-300
 LAMBERT_DEPTH = 23
-OWN_LIMIT = 1e-15
-"""A limit within this angle of the end of a swing is that end."""
 
 
 class Reduced(NamedTuple):

@@ -40,7 +40,6 @@ from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, Vec, arct
 from linkanim.mechanics.linkage import Actuator, CrankTriangle, Cylinder, Linkage, Travel
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.solver.input import (
-    SAME_PLACE,
     HalfForm,
     InputState,
     Limit,
@@ -52,6 +51,7 @@ from linkanim.mechanics.solver.input import (
     turn,
 )
 from linkanim.mechanics.solver.loop import ground_between
+from linkanim.mechanics.tolerances import SAME_PLACE
 from linkanim.units import degrees
 
 NO_ANGLE = "the input is a slider, which has no angle; take the phase"
