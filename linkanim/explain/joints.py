@@ -55,7 +55,7 @@ from linkanim.explain.steps import (
     slide_sides,
 )
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.groups import GroupPoint
+from linkanim.mechanics.groups import GroupPoint, GroupSlider
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
 from linkanim.units import rounded as told
 from linkanim.units import significant
@@ -596,6 +596,7 @@ KINDS: Mapping[type[Joint], KindSteps] = {
     RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot, reach_of_slot),
     RPP: KindSteps(place_yoke, move_yoke, route_of_guide, loop_of_yoke),
     GroupPoint: KindSteps(place_group, move_group),
+    GroupSlider: KindSteps(place_group, move_group),
 }
 """The steps of every kind of joint."""
 

@@ -252,7 +252,7 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
 
 def group_name(group: LinkGroup) -> str:
     """Name a linkage whose links are solved together by how many there are, and what they have."""
-    words = {6: "six-bar", 8: "eight-bar", 10: "ten-bar", 12: "twelve-bar"}
+    words = {5: "five-bar", 6: "six-bar", 7: "seven-bar", 8: "eight-bar", 10: "ten-bar", 12: "twelve-bar"}
     count = len(group.members)
     sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
     has = zip(("slider", "slot", "gears"), (*sliding, bool(group.gears)), strict=True)

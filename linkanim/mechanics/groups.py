@@ -7,6 +7,7 @@ links, gears between moving links. It is given in one pose, which says its lengt
 from __future__ import annotations
 
 import math
+from cmath import phase
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
@@ -14,7 +15,7 @@ from functools import cached_property
 from typing import ClassVar
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.linkage import Joint, Linkage, Point, RigidBody, Slide, Stated
+from linkanim.mechanics.linkage import Joint, Line, Linkage, Point, RigidBody, Slide, Stated
 
 GROUND = "ground"
 
@@ -84,6 +85,23 @@ class LinkGroup(Stated):
         """The links whose motion the group gives: all but the ground and the crank."""
         return (member for member in self.members if member.name not in (GROUND, self.crank))
 
+    def line(self, slide: GroupSlide) -> Line | None:
+        """Return the line of a slide; None on a link that has no two points, and so no axis.
+
+        It runs through the link's first point, from which the travel is counted.
+        """
+        carrier, place = self.by_name[slide.on], self.by_name[slide.link].place(slide.point)
+        first, *others = carrier.points
+        start = carrier.place(first)
+        offset = ((place - start) * direction_of(-slide.angle)).imag
+        if slide.on == GROUND:
+            return Line(first, slide.angle, offset)
+        second = next((name for name in others if carrier.place(name) != start), None)
+        if second is None:
+            return None
+        turned = math.remainder(slide.angle - phase(carrier.place(second) - start), math.tau)
+        return Line(first, turned, offset, (first, second))
+
     def at_point(self, point: str) -> list[GroupLink]:
         """Return the links that a point is on."""
         return [member for member in self.members if point in member.points]
@@ -146,8 +164,10 @@ class GroupPoint(Joint):
 
     @property
     def slides(self) -> tuple[Slide, ...]:
-        """What slides at it, along a line of its link."""
-        return ()
+        """Itself, along each line of a link on which it slides."""
+        own = (slide for slide in self.group.slides if slide.point == self.name)
+        lines = (self.group.line(slide) for slide in own)
+        return tuple(line.guiding(self.name) for line in lines if line)
 
     @property
     def at_limit(self) -> str:
@@ -160,6 +180,18 @@ class GroupPoint(Joint):
         if self.name != self.group.points[0]:
             return bodies
         return (*bodies, *(frame_of(one) for one in self.group.free if len(one.points) > 1))
+
+
+@frozen
+class GroupSlider(GroupPoint):
+    """A point of a group's block, which slides along a line without turning on what carries that."""
+
+    travels: ClassVar[bool] = True
+
+    @property
+    def line(self) -> Line:
+        """The line of travel."""
+        return self.slides[0].line
 
 
 def frame_of(member: GroupLink) -> RigidBody:

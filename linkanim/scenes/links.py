@@ -21,7 +21,7 @@ from typing import Any
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
-from linkanim.mechanics.groups import GroupGear, GroupLink, GroupPoint, GroupSlide, LinkGroup
+from linkanim.mechanics.groups import GroupGear, GroupLink, GroupPoint, GroupSlide, GroupSlider, LinkGroup
 from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS
 from linkanim.scenes.form import Table, on_circle
@@ -598,7 +598,9 @@ def _group(chain: _Dyads) -> tuple[GroupPoint, ...]:
     gears = tuple(GroupGear(gear.name, gear.links, gear.carrier, gear.ratio) for gear in pose.gears)
     points = tuple(name for name in _connected(chain) if name not in chain.known)
     group = LinkGroup(geared.angle, crank, members, points, slides, gears)
-    return tuple(GroupPoint(name, group) for name in points)
+    blocks = {slide.point: slide.link for slide in slides if not slide.turns and group.line(slide)}
+    chain.blocks |= {link: point for point, link in blocks.items()}
+    return tuple((GroupSlider if name in blocks else GroupPoint)(name, group) for name in points)
 
 
 def _group_slide(pose: PosedLinks, slide: PosedSlide) -> GroupSlide:

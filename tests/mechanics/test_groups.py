@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from fractions import Fraction
 from typing import Any
 
 import mpmath as mp
@@ -127,6 +128,101 @@ def test_a_double_butterfly_turns_fully_as_published() -> None:
 def test_its_class_is_the_textbooks(document: Mapping[str, Any], words: str, links: int, joints: int) -> None:
     info = read(document).info
     assert (info.class_name, *info.counts) == (words, links, joints, 1)
+
+
+TWO_PINS: dict[str, Any] = {
+    "points": {
+        "O": [0, 0],
+        "G": [60, 10],
+        "Q": [150, 20],
+        "A": [15, 26],
+        "C": [91, 51],
+        "E": [123, 75],
+        "F": [213, 69],
+    },
+    "links": {
+        "ground": ["O", "G", "Q"],
+        "crank": ["O", "A"],
+        "rod": ["A", "C"],
+        "block": ["C", "E"],
+        "link": ["E", "F"],
+        "out": ["Q", "F"],
+    },
+    "slides": {"guide": {"link": "block", "on": "ground", "angle": "30 deg"}},
+    "drive": {"joint": "O"},
+}
+
+
+def test_a_block_with_two_pins_is_one_link_and_moves_as_two_dyads_on_parallel_lines() -> None:
+    scene = read(TWO_PINS)
+    assert (scene.info.class_name, *scene.info.counts) == ("six-bar linkage with slider", 6, 7, 1)
+    points = {name: complex(*place) for name, place in TWO_PINS["points"].items()}
+    along = complex(math.cos(math.pi / 6), math.sin(math.pi / 6))
+    offsets = {name: ((points[name] - points["G"]) / along).imag for name in "CE"}
+    line = {"through": "G", "angle": "30 deg"}
+    joints = {
+        "A": {"crank": "O", "length": abs(points["A"])},
+        "C": {"from": "A", "length": abs(points["C"] - points["A"]), "line": line | {"offset": offsets["C"]}},
+        "E": {"from": "C", "length": abs(points["E"] - points["C"]), "line": line | {"offset": offsets["E"]}},
+        "F": {
+            "from": ["E", "Q"],
+            "length": [abs(points["F"] - points["E"]), abs(points["F"] - points["Q"])],
+            "side": "left",
+        },
+    }
+    ground = {name: TWO_PINS["points"][name] for name in "OGQ"}
+    dyads = scene_from({"ground": ground, "joints": joints}, name="dyads", where="dyads.toml")
+    angles = np.linspace(0, 6, 50)
+    one, other = (each.solve(angle=angles, speed=2.0, acceleration=1.0) for each in (scene, dyads))
+    for name in "CEF":
+        assert np.abs(one.position[name] - other.position[name]).max() < 1e-13 * 250
+        assert np.abs(one.velocity[name] - other.velocity[name]).max() < 1e-13 * 1000
+        assert np.abs(one.acceleration[name] - other.acceleration[name]).max() < 1e-12 * 1000
+
+
+FIVE: dict[str, Any] = {
+    "points": {"O": [0, 0], "D": [100, 0], "A": [10, 30], "B": [60, 60], "C": [90, 45], "E": [100, 90]},
+    "links": {
+        "ground": ["O", "D"],
+        "crank": ["O", "A"],
+        "AB": ["A", "B"],
+        "plate": ["B", "C", "E"],
+        "DC": ["D", "C"],
+    },
+    "drive": {"joint": "O", "speed": "1 rad/s"},
+}
+BLOCK: dict[str, Any] = {"links": {**FIVE["links"], "block": ["E"]}}
+HELD: dict[str, Mapping[str, Any]] = {
+    "a block on the ground": {**BLOCK, "slides": {"b": {"link": "block", "on": "ground", "angle": "20 deg"}}},
+    "a pin in a slot of the ground": {"slides": {"b": {"point": "E", "on": "ground", "angle": "20 deg"}}},
+    "a pin in a slot of the crank": {"slides": {"b": {"point": "E", "on": "crank", "angle": "100 deg"}}},
+    "gears between moving links": {"gears": {"g": {"links": ["AB", "DC"], "ratio": "-1/2"}}},
+    "a planet's carrier": {"gears": {"g": {"links": ["plate", "DC"], "ratio": 2, "carrier": "AB"}}},
+}
+
+
+@pytest.mark.parametrize("held_by", HELD.values(), ids=HELD)
+def test_whatever_holds_the_links_holds_them_all_the_way(held_by: Mapping[str, Any]) -> None:
+    scene = read({**FIVE, **held_by})
+    motion = scene.solve(phase=np.linspace(0, scene.period, 300), speed=1.0)
+    at = {name: place @ [1, 1j] for name, place in motion.position.items()}
+    start = {name: complex(*place) for name, place in FIVE["points"].items()}
+    for on in FIVE["links"].values():
+        for p, q in ((p, q) for p in on for q in on):
+            assert np.abs(np.abs(at[p] - at[q]) - abs(start[p] - start[q])).max() < 1e-14 * 300
+    turned = {
+        name: np.unwrap(np.angle((at[on[1]] - at[on[0]]) / (start[on[1]] - start[on[0]])))
+        for name, on in FIVE["links"].items()
+    }
+    for slide in held_by.get("slides", {}).values():
+        along = np.exp(1j * (math.radians(float(slide["angle"].split()[0])) + turned[slide["on"]]))
+        aside = ((at["E"] - at["O"]) / along).imag
+        assert np.ptp(aside) < 1e-13 * 300
+    for gear in held_by.get("gears", {}).values():
+        carried, (one, other) = turned.get(gear.get("carrier", "ground")), gear["links"]
+        ratio = float(Fraction(gear["ratio"]))
+        off = (turned[other] - carried) - ratio * (turned[one] - carried)
+        assert np.ptp(np.cos(off)) + np.ptp(np.sin(off)) < 1e-12
 
 
 def exact(value: Any) -> Any:

@@ -48,7 +48,7 @@ from linkanim.mechanics.arithmetic import (
     select,
     sqrt,
 )
-from linkanim.mechanics.groups import GROUND, GroupPoint
+from linkanim.mechanics.groups import GroupPoint, GroupSlider
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,
@@ -1031,8 +1031,7 @@ def place_group(point: GroupPoint, walk: Walk) -> None:
             bent = way.position.cross(way.acceleration) / square
             walk.add_piece(Slope(turn, bent), (first, second), way.position)
     for slide in group.slides:
-        if slide.on == GROUND and not slide.turns:
-            walk.travels[slide.point] = read(slide.name)
+        walk.travels[slide.point] = read(slide.name)
 
 
 class Closer(NamedTuple):
@@ -1058,6 +1057,7 @@ CLOSERS: Mapping[type[Joint], Closer] = {
     RPR: Closer(close_slot, loop_of_slot, slot_name),
     RPP: Closer(close_yoke, name=yoke_name),
     GroupPoint: Closer(place_group),
+    GroupSlider: Closer(place_group),
 }
 """Every kind that a linkage can be made of."""
 

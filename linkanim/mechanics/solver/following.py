@@ -476,7 +476,7 @@ class _Build:
     def _slide(self, link: str, point: str, on: str, angle: float, name: str) -> None:
         """Have a point of one link on a line of another."""
         slid, line = self.number[link], self.number[on]
-        origin = next(iter(self.frames[line].points)) if line is not None else next(iter(self.ground))
+        origin = self.group.by_name[on].points[0]
         here = self._place(slid, point) - self._place(line, origin)
         direction = direction_of(angle)
         along = here * direction.conjugate()
