@@ -644,6 +644,12 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--label TEXT", str, "the name of that table (default: its file's name)"),
         _value("--digits N", digits, "significant digits in the tables (default: 4)", 4),
+        _value(
+            "--polygon-speed SPEED",
+            speeds,
+            "the speed of polygons, and of comparisons with measured values (default: each of --speeds)",
+        ),
+        _flag("--no-derivation", "leave the derivation out: positions and differentiated loops in symbols"),
         _flag("--all", "add every quantity, and a chart of each"),
         _look("report"),
     ),

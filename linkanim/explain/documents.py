@@ -22,7 +22,7 @@ from unicodedata import east_asian_width
 import numpy as np
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
-from linkanim.explain.solution import TOLD, Solution
+from linkanim.explain.solution import INPUT_TITLE, TOLD, Solution
 from linkanim.explain.steps import (
     HALF,
     MARKED,
@@ -283,6 +283,28 @@ def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Ite
             yield form.construction(found)
         written = ["\n\n".join(step_parts(step, form, blank)) for step in chapter.steps]
         yield form.steps([part for part in (drawn, *written) if part])
+
+
+_DERIVED = ("Positions", "The same by the half-angle form", "Kinematic coefficients")
+"""The chapters of a solution that are a derivation, in symbols alone."""
+
+
+def derivation(found: Solution, form: DocumentForm) -> Iterator[str]:
+    """Yield the parts of the derivation in symbols: positions, half angles and the differentiated loops."""
+    for chapter in found.chapters:
+        if chapter.title in _DERIVED:
+            yield form.heading(3, chapter.title)
+            steps = (
+                replace(step, items=tuple(map(_in_symbols, step.items)))
+                for step in chapter.steps
+                if step.title != INPUT_TITLE
+            )
+            yield form.steps(["\n\n".join(step_parts(step, form, blank=True)) for step in steps])
+
+
+def _in_symbols(item: Item) -> Item:
+    """Return an item without its numbers: a line as an equation."""
+    return Equation(item.value, item.formula) if isinstance(item, ValueLine) else item
 
 
 def step_parts(step: Step, form: DocumentForm, blank: bool) -> Iterator[str]:

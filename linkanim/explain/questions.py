@@ -12,7 +12,7 @@ from functools import cached_property
 from math import degrees
 
 from linkanim.explain.formula import Formula, Symbol
-from linkanim.explain.solution import Solution
+from linkanim.explain.solution import INPUT_TITLE, Solution
 from linkanim.explain.steps import (
     MARKED,
     Chapter,
@@ -67,7 +67,7 @@ def given(found: Solution, asked: Sequence[ExamQuestion]) -> tuple[Item, ...]:
     ways = [item for one in asked for step in one.way for item in step.items]
     used = {leaf.symbol for item in ways for leaf in _leaves(item)}
     # what the input does is given, and not how the program lets it swing
-    driven = [item for step in found.positions.steps if step.title == INPUT for item in step.items]
+    driven = [item for step in found.positions.steps if step.title == INPUT_TITLE for item in step.items]
     input_ = [
         Given(replace(one.value, shown=f"{one.value.value:g}"), one.unit, "")
         for one in driven
@@ -81,9 +81,6 @@ def given(found: Solution, asked: Sequence[ExamQuestion]) -> tuple[Item, ...]:
     ]
     inside = [item for item in ways if isinstance(item, Given)]
     return (*input_, *stated, *inside, *_gears(found, ways))
-
-
-INPUT = "The input"
 
 
 def _leaves(item: Item) -> Iterator[Formula]:

@@ -382,6 +382,7 @@ def _load_velocity(load: Load, rates: Rates, arm: Any) -> Components:
 _FEWEST, _MOST = 6, 14
 _AGREES = 5e-6
 """The share of itself by which a result may differ from the solver's."""
+INPUT_TITLE = "The input"
 TOLD = 4
 """Significant digits of a result that is told."""
 _LONG = 100.0
@@ -629,7 +630,7 @@ class _Draft:
     def _placed(self) -> Chapter:
         """Return the chapter of positions."""
         scale = self.work.scale
-        self._step("The input", partial(place_input, self.request, self.rates))
+        self._step(INPUT_TITLE, partial(place_input, self.request, self.rates))
         for joint in self.linkage.joints:
             self._step(f"Joint {marked(joint.name)}", partial(KINDS[type(joint)].place, joint, self.work))
             self.results += scale.outcomes(f"{joint.name}.position", self.work.points[joint.name], 0)

@@ -350,6 +350,8 @@ def _value(values: Values, part: str, column: Column, instant: Instant) -> float
 _MOST_CURVES = 6
 """On one chart."""
 _CENTRE_OF_MASS = ", centre of mass"
+_SHORT_NAME = 2
+"""The most letters of a name that stands behind a noun: link 3, slider C."""
 
 
 class PlannedChart(NamedTuple):
@@ -419,8 +421,21 @@ class _ChartChoice:
         what = dict.fromkeys(words.partition(": ")[2] for words in known)
         first = " and ".join(what)
         if all(part.endswith(_CENTRE_OF_MASS) for part in parts):
-            first, parts = (
-                f"{first} of centres of mass",
-                [part.removesuffix(_CENTRE_OF_MASS) for part in parts],
-            )
-        return f"{first[:1].upper()}{first[1:]}: {', '.join(parts)}"
+            centres = "centre of mass" if len(parts) == 1 else "centres of mass"
+            first = f"{first} of the {centres}"
+            parts = [part.removesuffix(_CENTRE_OF_MASS) for part in parts]
+        if parts == ["Input"]:
+            return f"Input {first}"
+        return f"{first[:1].upper()}{first[1:]} of {_listed([*map(_in_sentence, parts)])}"
+
+
+def _in_sentence(part: str) -> str:
+    """Return what a part is called within a sentence: link 3, slider C, the rocker, B."""
+    if not part[1:2].islower():
+        return part
+    name = f"{part[:1].lower()}{part[1:]}"
+    return name if len(name.rpartition(" ")[2]) <= _SHORT_NAME else f"the {name}"
+
+
+def _listed(parts: list[str]) -> str:
+    return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0]

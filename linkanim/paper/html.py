@@ -38,6 +38,8 @@ p.seen {{ font-size: .92em; margin: 0; }}
 .figures ul {{ columns: 3; margin: .2rem 0 0; padding: 0; list-style: none; font-size: .85em; }}
 .figures li {{ break-inside: avoid; }}
 .figures a {{ color: inherit; }}
+.derivation {{ columns: 2; column-gap: 1.6rem; }} .derivation .step {{ break-inside: avoid; }}
+.derivation .step h3 {{ font-size: .95em; margin: .5rem 0 .1rem; }}
 p.equation {{ margin: .2rem 0 .2rem 1.4rem; }}
 figure {{ margin: .5rem 0 .9rem; break-inside: avoid; }}
 figure svg {{ width: 100%; height: auto; display: block; }}
@@ -63,7 +65,7 @@ _APART = " style='break-before: page'"
 _KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
 _LISTED = 3
 """The fewest figures that get a list of their own."""
-_ROWS_KEPT = 14
+_ROWS_KEPT = 7
 """The most rows of a table that is kept on one page."""
 
 
@@ -163,7 +165,7 @@ def _figures_of(chapters: Iterable[tuple[str, Iterable[Part]]]) -> str:
     if len(captions) < _LISTED:
         return ""
     numbered = enumerate(captions, 1)
-    entries = "".join(f"<li><a href='#figure-{n}'>{n} {symbol(one)}</a></li>" for n, one in numbered)
+    entries = "".join(f"<li><a href='#figure-{n}'>{n} {unbroken(one)}</a></li>" for n, one in numbered)
     return f"<nav class='figures keep' aria-label='Figures'>{heading(2, 'Figures')}<ul>{entries}</ul></nav>"
 
 
@@ -199,7 +201,7 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
             title = f"Figure {number}. {caption}"
             drawn = embedded(picture, f"{title}. {words}" if words else title, f"max-height: {highest}mm")
             below = paragraph(words, "seen") if words else ""
-            told = f"<figcaption>{symbol(title)}</figcaption>{below}"
+            told = f"<figcaption>{unbroken(title)}</figcaption>{below}"
             return f"<figure id='figure-{number}'>{drawn}{told}</figure>"
         case TablePart():
             title = f"Table {next(tables)}. {part.caption}"
@@ -221,7 +223,12 @@ def heading(level: int, text: str) -> str:
 
 def paragraph(text: str, kind: str = "") -> str:
     """Return a paragraph, of a class of the style where one is named."""
-    return f"<p class='{kind}'>{symbol(text)}</p>" if kind else f"<p>{symbol(text)}</p>"
+    return f"<p class='{kind}'>{unbroken(text)}</p>" if kind else f"<p>{unbroken(text)}</p>"
+
+
+def unbroken(text: str) -> str:
+    """Return text that breaks no line about an equals sign."""
+    return symbol(text).replace(" = ", "&nbsp;=&nbsp;")
 
 
 def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2, 3]) -> TablePart:

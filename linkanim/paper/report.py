@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
 from html import unescape
-from itertools import chain, count, groupby
+from itertools import chain, count, groupby, product
+from math import isclose
 
 import numpy as np
 
 from linkanim import __version__
-from linkanim.explain.documents import HTML, chapters
+from linkanim.explain.documents import HTML, chapters, derivation
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
@@ -37,18 +38,19 @@ from linkanim.paper.html import Beside, FigurePart, Part, TablePart
 from linkanim.paper.sentences import about, closing
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import polygons_svg, vectors_svg
+from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.quantities import speed_words
 from linkanim.picture.stills import input_rests, still_phase
 from linkanim.picture.text import subscripted
-from linkanim.scenes.editing import dimensions
+from linkanim.scenes.editing import Dimension, dimensions
 from linkanim.scenes.files import PublishedTable
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, significant
 
-_CHART = (400, 225)
-_BROAD_CHART = (820, 225)
+_CHART = (400, 205)
+_BROAD_CHART = (820, 205)
 """The size in pixels of a chart that has a row of its own."""
 _WIDE, _TALL = (820, 440), (360, 640)
 """The figure's size in pixels: as wide as the page, or beside facts and dimensions."""
@@ -65,6 +67,9 @@ _HIGH = 1.1
 """The ratio of height to width above which a scene's figure is upright."""
 _POLYGONS = 820, 300
 """The size in pixels of both polygons of a pose, side by side."""
+_SAME = 1e-9
+"""The share of itself by which two numbers of one dimension differ at most."""
+_LEFT, _RIGHT = "to the left", "to the right"
 _COMPARED = 19
 """The most rows of a measured table that are printed."""
 _PRINTED = 6
@@ -89,9 +94,10 @@ DrawnChart = tuple[tuple[str, ...], FigurePart]
 class Report:
     """What a report is asked to show: the instants of its tables, the speeds of tables and charts, digits.
 
-    `measured` tables, by quantity, are compared with the solution, under their `label`; `published` values of
-    the scene have tables of their own. With `every`, the hand-out is followed by a table of every quantity at
-    each instant, and by every chart.
+    Polygons are drawn, and tables compared, at the `polygon_pace`, else at every speed and at the first. With
+    the `derivation` the loops are worked out in symbols. `measured` tables, by quantity, are compared with
+    the solution, under their `label`; `published` values of the scene have tables of their own. With
+    `every`, the hand-out is followed by a table of every quantity at each instant, and by every chart.
     """
 
     scene: Scene
@@ -102,6 +108,8 @@ class Report:
     measured: Mapping[str, MeasuredTable] = field(default_factory=dict)
     label: str = "measured"
     published: tuple[PublishedTable, ...] = ()
+    polygon_pace: Pace | None = None
+    derivation: bool = True
     progress: Callable[[int, int], None] | None = None
     """Is told of each part that is begun: how many there are by then, and 0 for how many in all."""
 
@@ -195,34 +203,37 @@ class Report:
             yield html.paragraph(self.scene.look_at)
         speeds = ", ".join(pace.words for pace in self.paces)
         yield html.paragraph(
-            f"Positions, velocities and accelerations are solved in closed form by linkanim {__version__}, "
-            f"{self.scene.info.input_name} speed {speeds}, {self._steadily}."
+            "All positions, velocities and accelerations are closed-form solutions by linkanim "
+            f"{__version__}. The speed of the {self.scene.info.input_name} is {speeds}, {self._steadily}. "
+            f"Numbers have {self.digits} significant digits."
         )
 
     @property
     def _steadily(self) -> str:
         second = self.paces[0].acceleration
         return (
-            f"and acceleration {second:g} rad/s² at every pose that is shown"
+            f"and its acceleration {second:g} rad/s² in every position shown"
             if second
-            else "which is constant"
+            else "constant in time"
         )
 
     def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
         yield "The mechanism", self._mechanism()
         if self._worked.loops:
             yield "Vector loops", self._vector_loops()
+            if self.derivation:
+                yield "Derivation", self._derivation()
         if len(self.instants) > 1:
             yield "Poses", self._poses()
         yield "Values", self._tables()
         for title, charts in self._topics.items():
             yield title, _in_rows([chart for _, chart in charts])
         if self.published:
-            yield "Beside printed values", [self._printed(one) for one in self.published]
+            yield "Comparison with printed values", [self._printed(one) for one in self.published]
         if self.measured:
-            yield f"Beside {self.label}", self._beside()
+            yield f"Comparison: {self.label}", self._beside()
         yield "Velocity and acceleration polygons", self._polygons()
-        yield "In short", [html.paragraph(self._told(one)) for one in closing(self.scene, self.paces[0])]
+        yield "Summary", [html.paragraph(self._told(one)) for one in closing(self.scene, self.paces[0])]
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
@@ -237,9 +248,7 @@ class Report:
     def _mechanism(self) -> Iterator[Part]:
         scene, shown = self.scene, self._figure
         drawn = FigurePart(shown.document(), f"{scene.title} with its dimensions at {shown.caption}")
-        stated = (
-            (self._indexed(item.label), self._stated(item.value, item.unit)) for item in dimensions(scene)
-        )
+        stated = self._dimensions()
         known = tuple((label, self._told(value)) for label, value in scene.info.lines)
         own = scene.linkage.drive.speed
         at = "" if [pace.speed for pace in self.paces] == [own] else f" at {speed_words(scene, own)}"
@@ -250,6 +259,32 @@ class Report:
             yield Beside((replace(drawn, highest=_HIGHEST), told))
         else:
             yield from (html.facts(*facts, 2), drawn, html.facts(*lengths, 3))
+
+    def _dimensions(self) -> Iterator[tuple[str, str]]:
+        """Yield what the scene states, each dimension of the figure with its symbol, and the figure's others.
+
+        A dimension has the symbol of the figure's that is as long; of several, of that with the most joints
+        of its label.
+        """
+        drawn = [*symbols(figure(self.scene)).dimensions]
+        items = [*map(_to_its_side, dimensions(self.scene))]
+        pairs = sorted(
+            (-len({*_WORD.findall(item.label)} & {*_WORD.findall(one.about)}), n, m)
+            for n, item in enumerate(items)
+            for m, one in enumerate(drawn)
+            if one.angle == (item.unit == "deg") and isclose(item.value, one.value, rel_tol=_SAME)
+        )
+        named: dict[int, int] = {}
+        for _, n, m in pairs:
+            if n not in named and m not in named.values():
+                named[n] = m
+        for n, item in enumerate(items):
+            symbol = f"{drawn[named[n]].symbol}  " if n in named else ""
+            yield f"{symbol}{self._indexed(item.label)}", self._stated(item.value, item.unit)
+        for m, one in enumerate(drawn):
+            if m not in named.values():
+                unit = "deg" if one.angle else self.scene.length_unit
+                yield f"{one.symbol}  {one.about}", self._stated(float(f"{one.value:.6g}"), unit)
 
     def _indexed(self, label: str) -> str:
         """Return words with the names of joints in them typeset: Pin O₂."""
@@ -281,10 +316,20 @@ class Report:
             yield drawn
             yield from equations
 
+    def _derivation(self) -> Iterator[Part]:
+        """Yield the formulas of the positions, and of the differentiated loops, in symbols."""
+        yield html.paragraph(
+            "Each step goes on from those before it. The last steps differentiate the loops with respect to "
+            "the input. Their coefficients, times the input's velocity and its square, are the velocities "
+            "and accelerations."
+        )
+        yield f"<div class='derivation'>{''.join(derivation(self._worked, HTML))}</div>"
+
     def _beside(self) -> Iterator[Part]:
         """Yield a chart and a table of each quantity that was measured: both values and their difference."""
         for token, given in self.measured.items():
-            curves, measured = compared(self.scene, token, self.paces[0], given, self.label)
+            pace = self.polygon_pace or self.paces[0]
+            curves, measured = compared(self.scene, token, pace, given, self.label)
             words = self.scene.quantities[token].words
             drawn = Page(curves, _CHART, brief=True, measured=measured)
             worst = measured.worst
@@ -293,7 +338,7 @@ class Report:
             at = f"{measured.inputs[worst]:.6g} {'s' if measured.over == 'time' else '°'}".replace(" °", "°")
             chart = FigurePart(
                 svg(_CHART, drawn.background, drawn.groups(), title=words),
-                f"{words}, at {self.paces[0].words}, beside {self.label}",
+                f"{words}, at {pace.words}, and {self.label}",
                 words=f"The largest difference is {off}, at {at}.",
             )
             yield Beside((chart, self._differences(measured, words, unit)))
@@ -356,13 +401,21 @@ class Report:
             yield html.paragraph(note)
 
     def _polygons(self) -> Iterator[Part]:
-        pace, look = self.paces[0], Look(trace=False, hud=False)
-        for instant in self.instants:
-            if not input_rests(self.scene, instant.phase):
-                speed, second = pace.speed, pace.acceleration
-                shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
-                where = f"at {place_of(self.scene, instant)}, {pace.words}"
-                yield FigurePart(polygons_svg(shown), f"Velocity and acceleration polygon {where}")
+        look, paces = Look(trace=False, hud=False), (self.polygon_pace,) if self.polygon_pace else self.paces
+        moving = (one for one in self.instants if not input_rests(self.scene, one.phase))
+        for instant, pace in product(moving, paces):
+            speed, second = pace.speed, pace.acceleration
+            shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
+            where = f"at {place_of(self.scene, instant)}, {pace.words}"
+            yield FigurePart(polygons_svg(shown), f"Velocity and acceleration polygon {where}")
+
+
+def _to_its_side(item: Dimension) -> Dimension:
+    """Return a dimension to the left that is negative as one to the right, as the figure has it."""
+    if item.value < 0 and item.label.endswith(_LEFT):
+        label = f"{item.label.removesuffix(_LEFT)}{_RIGHT}"
+        return replace(item, label=label, value=-item.value)
+    return item
 
 
 def _widest(lines: Sequence[tuple[str, str]], columns: int) -> int:

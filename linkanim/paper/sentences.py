@@ -120,11 +120,13 @@ def _sentence(text: str) -> str:
 
 
 def _told(curves: Curves) -> Sequence[Curve]:
-    """Return the curves that are described: those at the first speed; of many, the one of greatest range."""
-    first = [curve for curve in curves.curves if curve.pace == curves.curves[0].pace]
-    if len(first) <= _MOST:
-        return first
-    return [max(first, key=lambda curve: float(np.ptp(np.nan_to_num(curve.values))))]
+    """Return the curves that are described: those at the speed of the curve of greatest range, as marked.
+
+    Of many it is that curve alone.
+    """
+    widest = max(curves.curves, key=lambda curve: float(np.ptp(np.nan_to_num(curve.values))))
+    same = [curve for curve in curves.curves if curve.pace == widest.pace]
+    return same if len(same) <= _MOST else [widest]
 
 
 def _sentences(curves: Curves, curve: Curve, *, brief: bool) -> Iterator[str]:

@@ -12,6 +12,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.paper.figure import Figured
 from linkanim.paper.svg import svg
 from linkanim.picture.chart import Pen, pen_for
+from linkanim.picture.fittings import ground_layers
 from linkanim.picture.items import Caption, Group, Halo, Item, grouped
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
@@ -52,8 +53,12 @@ class _Named(NamedTuple):
 def vectors_svg(found: Solution) -> str:
     """Return the vector loops as SVG: each vector once, with its name, and its joints with theirs."""
     picture = _picture(found)
-    ground, *_ = picture.drawing.standing()
-    links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0)))
+    ends = {end for one in found.arrows for end in (one.begin, one.end)}
+    bodies = {name for body in found.request.scene.linkage.bodies for name in body.joints}
+    pins = [name for name in picture.figure.fixed if name in bodies or found.places[name] in ends]
+    ground = Group("ground", ground_layers(picture.drawing.setting, pins))
+    others = {*picture.figure.fixed} - {*pins}
+    links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0), others))
     drawn = [ground, links, grouped("vectors", _drawn(found, picture))]
     title = f"Vector loops of {found.title}"
     return svg(picture.size, picture.theme.background, drawn, title=title)

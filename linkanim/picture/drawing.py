@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import groupby, zip_longest
 from math import isfinite
@@ -116,10 +116,11 @@ class Drawing:
             key = (n, part.turn(places)) if part.fold > 1 else None
             yield Group(f"wheel-{part.head}", part.placed(places), key=key, made_of=part)
 
-    def faint(self, pose: Pose) -> list[Layer]:
-        """Return a pose's bodies and pins in faint colours."""
-        back = self.setting.theme.background
-        layers = (layer for group in self._pinned(self.places(pose)) for layer in group.layers)
+    def faint(self, pose: Pose, without: Collection[str] = ()) -> list[Layer]:
+        """Return a pose's bodies and pins in faint colours, `without` the pins of some joints."""
+        back, left_out = self.setting.theme.background, {f"joint-{name}" for name in without}
+        groups = (group for group in self._pinned(self.places(pose)) if group.name not in left_out)
+        layers = (layer for group in groups for layer in group.layers)
         return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
 
     def standing(self) -> Iterator[Group]:

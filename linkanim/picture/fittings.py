@@ -6,7 +6,7 @@ damper's piston slides. The ground has hatched pedestals under fixed pins, and t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import frexp, pi
@@ -553,12 +553,12 @@ def _yoke(guided: Slide, slot: Slide, context: DrawContext) -> Fitting:
 # What stands still: pedestals with their hatching under fixed pins, and the guides of sliders.
 
 
-def ground_layers(context: DrawContext) -> list[Layer]:
-    """Return pedestals and guides."""
+def ground_layers(context: DrawContext, pins: Collection[str] | None = None) -> list[Layer]:
+    """Return guides, and the pedestals of fixed `pins`, of all where none are named."""
     figure, view, gauge, theme = context.known
     rails = *rails_of(context), *rails_under(context)
     layers = [Layer(theme.ground, [loop for rail in rails for loop in rail])]
-    for name in figure.fixed:
+    for name in figure.fixed if pins is None else pins:
         layers += pedestal(figure.pixel(name, view), away(figure, name), gauge, theme)
     return layers
 

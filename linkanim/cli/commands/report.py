@@ -40,7 +40,10 @@ def run(options: Namespace) -> None:
         beside = _measured(options), options.label or _name(options)
         printed = published(options.scene) if path_of(options.scene) is None else ()
         with bar(unit=" parts") as progress:
-            report = Report(scene, instants, speeds, options.digits, options.all, *beside, printed, progress)
+            polygons = _polygon_pace(options), not options.no_derivation
+            report = Report(
+                scene, instants, speeds, options.digits, options.all, *beside, printed, *polygons, progress
+            )
             for name, text in report.files():
                 (folder / name).write_text(text, encoding="utf-8")
     print(target / "report.html")
@@ -54,6 +57,18 @@ def _paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:
     if second and options.data is not None:
         raise BadInput("--data is compared at a constant speed; leave --acceleration out")
     return tuple(pace._replace(acceleration=second) for pace in paces(scene, options))
+
+
+def _polygon_pace(options: Namespace) -> Pace | None:
+    """Return the speed of polygons and comparisons, where one is named."""
+    if options.polygon_speed is None:
+        return None
+    (words, speed), *more = options.polygon_speed.items()
+    if more:
+        raise BadInput(
+            f"--polygon-speed takes one speed, not {len(more) + 1}; without it all speeds are drawn"
+        )
+    return Pace(speed, words, options.acceleration)
 
 
 def _measured(options: Namespace) -> dict[str, MeasuredTable]:
