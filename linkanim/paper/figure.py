@@ -28,9 +28,7 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
 
 
-def moving(
-    scene: Scene, size: tuple[int, int], look: Look, phases: Iterable[float], speed: float
-) -> bytes:
+def moving(scene: Scene, size: tuple[int, int], look: Look, phases: Iterable[float], speed: float) -> bytes:
     """Return a scene's poses at phases (rad), at a speed (rad/s), each as a page of a PDF.
 
     Names and numbers stand as in a recording. `BadInput` where fpdf2 is not installed.

@@ -23,6 +23,7 @@ from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import meant
+from linkanim.mechanics.search import sign_changes
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
@@ -273,7 +274,8 @@ _FARTHEST = 3.0
 """How far to either side of the crank's pivot, in strokes, beginnings of the slider's scale are tried."""
 _KEPT, _MORE = 4, 7
 """The linkages that are kept for each pair of ranges, and those that are improved beyond the count."""
-_HALVINGS = 50
+_CLOSELY = 2.0**-50
+"""Share of a place to which a change of sign is found."""
 _FINEST = 1e-15
 _POOR = 5.0
 """The power of the ratio of sines by which a transmission angle below the least raises the error."""
@@ -635,7 +637,7 @@ def _at_start(
         return solved[:, column] - start if sliding else np.sin(solved[:, column] - start)
 
     phases = np.linspace(0.0, math.tau, 4 * _CURVE + 1)
-    found = rows(_zeros(lambda at: off(rows(at)), phases, off(rows(phases)), 1))
+    found = rows(sign_changes(lambda at: off(rows(at)), phases, _CLOSELY))
     # the sine is 0 half a turn off, too, where the link points the other way
     return found if sliding else found[np.cos(found[:, column] - start) > 0]
 
@@ -849,7 +851,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         if kind.turning:
             seen = float(scene.solve(angle=start, derivatives=0).angle[kind.output])
             first = _in_turn(first, seen if task.output_start is None else task.output_start)
-        points = _zeros(errors, x, sampled, 5) if task.level else function.chebyshev(design.points)
+        points = sign_changes(errors, x, _CLOSELY) if task.level else function.chebyshev(design.points)
         stated = {"function": _stated(task, points, (start, wide, first, high))}
         scene = scene_from({**document, **stated}, name=task.name, where=task.name)
     except (AssemblyError, SceneError):
@@ -902,21 +904,6 @@ def _solved_errors(
     if kind.turning:
         off = np.remainder(off + math.pi, math.tau) - math.pi
     return np.asarray(off * (function.span / high))
-
-
-def _zeros(errors: Callable[[Real], Real], x: Real, values: Real, at_once: int) -> Real:
-    """Return where errors change their sign, halving between samples, `at_once` halvings in each call."""
-    turns = np.flatnonzero(values[:-1] * values[1:] <= 0)
-    low, high, below = x[turns], x[turns + 1], values[turns]
-    parts, each = 2**at_once, np.arange(len(turns))
-    share = np.arange(1, parts) / parts
-    for _ in range(_HALVINGS // at_once if len(turns) else 0):
-        inner = low[:, None] + (high - low)[:, None] * share
-        same = errors(inner.ravel()).reshape(inner.shape) * below[:, None] > 0
-        last = np.where(same.all(axis=1), parts - 1, same.argmin(axis=1))
-        edges = np.column_stack([low, inner, high])
-        low, high = edges[each, last], edges[each, last + 1]
-    return np.asarray((low + high) / 2)
 
 
 def _least_transmission(task: FunctionTask, design: _Design) -> float:

@@ -23,6 +23,7 @@ from linkanim import units
 from linkanim.bounds import can_be_computed
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.search import highest
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.synthesis.linkages import Real, refuse_count
@@ -37,8 +38,6 @@ LONGEST = 100.0
 _LONGEST_ROD = 12.0
 """The longest rod of a family, in cranks, as its angle may still grow while the crank goes to zero."""
 _TRIED = 2001
-_NARROWINGS = 60
-_GOLDEN = (math.sqrt(5) - 1) / 2
 _STEEPEST = math.radians(1.0)
 """The least transmission angle (rad) of a member."""
 _DIGITS = 12
@@ -145,16 +144,11 @@ class DeadCentreFamily:
 
     @cached_property
     def best(self) -> float:
-        """The x of the greatest least transmission angle, by the golden section between samples."""
+        """The x of the greatest least transmission angle."""
         places = np.linspace(self.low, self.high, _TRIED)
         values = np.nan_to_num(self.transmission(places))
-        top = int(values.argmax())
-        low, high = places[max(top - 1, 0)], places[min(top + 1, _TRIED - 1)]
-        for _ in range(_NARROWINGS):
-            one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-            first, second = np.nan_to_num(self.transmission(np.array([one, other])))
-            low, high = (one, high) if first < second else (low, other)
-        return float((low + high) / 2)
+        step = (self.high - self.low) / (_TRIED - 1)
+        return highest(self.transmission, float(places[values.argmax()]), step, (self.low, self.high))
 
 
 @lru_cache(maxsize=64)
