@@ -47,6 +47,14 @@ class Rubber(NamedTuple):
     words: str = ""
 
 
+class Hover(NamedTuple):
+    """What is under the mouse on a sheet: a place in its unit, and how near is on a thing; or a tool."""
+
+    place: Point
+    reach: float
+    tool: int | None
+
+
 @frozen
 class ToolBar:
     """The bar of tools: the number of the tool in hand, and of the tool under the mouse.
@@ -542,7 +550,8 @@ class Overlay:
     the phase that the mouse points at on a curve; with `grip` the chart's cursor has a grip. `shutter` is how
     white the picture is, in eighths. The `bar` has the commands; `tools` are those of a sheet, beside a list
     of dimensions. In a `swing` the linkage is between two closures. The share
-    `shut` of an open list is still beyond the window's edge.
+    `shut` of an open list is still beyond the window's edge. `hover` is what the mouse is over, for those who
+    describe the rest.
     """
 
     paused: bool = False
@@ -577,6 +586,7 @@ class Overlay:
     bar: CommandBar | None = None
     tools: ToolBar | None = None
     shut: float = 0.0
+    hover: Hover | None = None
 
     @property
     def tool_bar(self) -> ToolBar | None:

@@ -254,7 +254,7 @@ def _through(state: State, door: int) -> State:
     if name == "run":
         state = left(state)
         return replace(state, clock=state.clock.pause(state.frame, False))
-    return state if state.sheet and state.sheet.open else build(state, None)
+    return state if state.building else build(state, None)
 
 
 def read_title(words: GameWords) -> Title:

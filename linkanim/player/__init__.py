@@ -8,15 +8,15 @@ From the ground up; a module imports from those before it only:
     state      all that one frame of the window shows, and what a mode is
     rules      what values actions may have
     commands   the bar of commands, and menus
-    edits      actions that show another scene, and that edit dimensions
-    sketching  what the pencil and poses share: answers come, one is kept
-    dial       the pencil's dial, from the most exact answer to the most compact
-    building   actions of the sheet, on which a linkage is built
     pointing   what is under the mouse, and the words about it
     shown      the state as an overlay
     framing    the picture that fits a state, and the change to the next one
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse
+    edits      actions that show another scene; a mode: the list of dimensions
+    sketching  what the pencil and poses share: answers come, one is kept
+    dial       the pencil's dial, from the most exact answer to the most compact
+    building   two modes: the sheet, on which a linkage is built, and the list of dimensions on it
     listing    a mode: the list of quantities, or of commands
     finding    a mode: one field that finds anything
     shelving   a mode: the shelf

@@ -20,11 +20,11 @@ from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_w
 from linkanim.player import building, edits, making, rules, taking
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
-from linkanim.player.edits import drop, edit
+from linkanim.player.edits import drop
 from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.modes import MODES
 from linkanim.player.naming import Naming
-from linkanim.player.sketching import REFUSED, left
+from linkanim.player.sketching import left
 from linkanim.player.state import (
     ATTRACT_AFTER,
     CHIP_FRAMES,
@@ -39,14 +39,13 @@ from linkanim.player.state import (
     Toast,
     followed,
     fresh,
-    nothing_begun,
     proved,
     refused,
     with_chip,
     with_effect,
     with_toast,
 )
-from linkanim.scenes.editing import closure_name, other_closure
+from linkanim.scenes.editing import other_closure
 from linkanim.scenes.scene import Scene
 from linkanim.units import LENGTH_UNITS
 
@@ -237,14 +236,8 @@ def back(state: State, _: None) -> State:
         return replace(state, help=False)
     if state.top:
         return state.top.closed(state)
-    if state.building:
-        return building.let_go(state) or building.left(state)
-    if state.editing.open and state.editing.begun:
-        return replace(state, editing=nothing_begun(state.editing))
     if state.place_typed:
         return replace(state, place_typed="", chip=None)
-    if state.editing.open:
-        return edit(state, None)
     if state.constructed:
         return replace(state, construction=None)
     if state.from_title and state.games:
@@ -358,11 +351,6 @@ def _place(before: State, after: State) -> str | None:
     return None if after.scene is before.scene else f"{after.place + 1} / {len(after.shelf)}"
 
 
-def _closure(before: State, after: State) -> str | None:
-    """Say which of the two closures is shown."""
-    return None if after.scene is before.scene else closure_name(after.scene)
-
-
 def _returns(_: State, after: State) -> str:
     """Say on which closure the input comes back."""
     return f"back on the {'same' if after.scene.mechanism.retraced else 'other'} closure"
@@ -391,11 +379,6 @@ def _zoom(_: State, after: State) -> str:
 def _unused(state: State, _: object) -> State:
     """Do nothing: the action has a meaning only in a game."""
     return state
-
-
-def _stuck(words: str) -> Callable[[State, State], str | None]:
-    """Return the answer of an action that says these words where nothing changed."""
-    return lambda was, now: words if (was.editing, was.sheet) == (now.editing, now.sheet) else None
 
 
 def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
@@ -446,7 +429,7 @@ ACTIONS: Mapping[str, Rule] = {
     "mechanism": Rule(rules.whole, edits.mechanism, answer=_place),  # places further on the shelf
     "select": Rule(rules.whole, edits.select, answer=_place),  # the place in the catalogue, from 0
     "put": Rule(rules.whole, building.put, answer=_place),  # the place on the shelf, from 0
-    "closure": Rule(rules.nothing, edits.closure, answer=_closure),
+    "closure": Rule(rules.nothing, edits.closure, answer=rules.closure),
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(rules.whole, chart, answer=_chart),  # quantities further
     "plot": Rule(rules.text, edits.plot, answer=_chart),  # a quantity's token
@@ -456,28 +439,16 @@ ACTIONS: Mapping[str, Rule] = {
     "zoom": Rule(rules.numbers(3), zoom, answer=_zoom),
     "pan": Rule(rules.numbers(2), pan),  # window heights, right and down
     "fit": Rule(rules.nothing, fit, answer=_zoom),
-    "edit": Rule(rules.nothing, edits.edit),
-    "numbers": Rule(rules.nothing, building.numbers),
-    "edit_at": Rule(rules.text, edits.edit_at),  # a joint
-    "edit_row": Rule(rules.whole, edits.edit_row),  # a row of the list of dimensions
     "trace_joint": Rule(rules.text, edits.trace_joint),
     "drive_joint": Rule(rules.text, edits.drive_joint),
-    "choose": Rule(rules.whole, edits.choose),
-    "pass_on": Rule(rules.whole, edits.pass_on),
-    "nudge": Rule(rules.whole, edits.nudge),
-    "type": Rule(rules.text, edits.write),
-    "erase": Rule(rules.nothing, edits.erase),
-    "take": Rule(rules.nothing, edits.take),
     "grab": Rule(rules.text, edits.grab),  # a joint
     # to (x, y) of the scene as shown, in such parts of a nudge's step
     "carry": Rule(rules.numbers(3), edits.carry),
-    "grab_row": Rule(rules.whole, edits.grab_row),  # a row of the list of dimensions
-    "pull": Rule(rules.whole, edits.pull),  # steps from the value that was taken hold of
     "drop": Rule(rules.nothing, edits.drop),
-    "undo": Rule(rules.nothing, edits.undo, answer=_stuck("nothing to undo")),
+    "undo": Rule(rules.nothing, edits.undo, answer=rules.stuck("nothing to undo")),
     "reset": Rule(rules.nothing, edits.reset),
     "returns": Rule(rules.nothing, edits.returns, answer=_returns),
-    "redo": Rule(rules.nothing, edits.redo, answer=_stuck("nothing to redo")),
+    "redo": Rule(rules.nothing, edits.redo, answer=rules.stuck("nothing to redo")),
     "dial_on": Rule(rules.whole, making.along),  # so many steps further
     "play": Rule(rules.text, play),  # a game's words
     # what games have in common; each says what they do in it
@@ -485,33 +456,6 @@ ACTIONS: Mapping[str, Rule] = {
     "next": Rule(rules.nothing, _unused),
     "turn": Rule(rules.whole, _unused),  # small steps, counterclockwise or to the right
     "raise": Rule(rules.whole, _unused),  # steps up
-    "build": Rule(rules.nothing, building.build),
-    "build_on": Rule(rules.nothing, building.build_on),
-    "sheet": Rule(rules.nothing, building.new),
-    "draft": Rule(rules.text, building.draft),  # a draft as it is stored
-    "tool": Rule(rules.text, building.tool),
-    "tool_on": Rule(rules.whole, building.tool_on),  # tools further
-    "photo": Rule(rules.text, building.photo),  # a picture's file, "" for none
-    # (x, y) of the sheet, how near counts as on it, the step of what is drawn
-    "hand_down": Rule(rules.hand, building.down),
-    "hand_to": Rule(rules.hand, building.along),
-    "hand_up": Rule(rules.nothing, building.up),
-    "cursor": Rule(rules.place_of_sheet, building.cursor),  # (x, y) of the sheet
-    "further": Rule(rules.whole, building.further),
-    "offer": Rule(rules.whole, building.offer),  # the place of what the last drag can mean
-    "number": Rule(rules.whole, building.number),
-    "option_on": Rule(rules.nothing, building.option),  # another of what the chosen row of the sheet can be
-    "digits": Rule(rules.text, building.write),
-    "undigit": Rule(rules.nothing, building.erase),
-    "take_number": Rule(rules.nothing, building.take),
-    "reassemble": Rule(
-        rules.nothing, building.reassemble, answer=_closure
-    ),  # as "closure", and the sheet stays
-    "remove": Rule(rules.nothing, building.remove),
-    "trace_on": Rule(rules.nothing, building.trace),
-    "drive_by": Rule(rules.nothing, building.drive),
-    "unbuild": Rule(rules.nothing, building.undo, answer=_stuck("nothing to undo")),
-    "rebuild": Rule(rules.nothing, building.redo, answer=_stuck("nothing to redo")),
     "construct": Rule(rules.whole, making.construct),  # steps further
     "construction": Rule(rules.one_of(*get_args(ConstructionKind)), making.construction),
     "slide": Rule(rules.whole, making.slide),  # the step of the slider that is shown
@@ -555,15 +499,6 @@ def is_taped(action: Action) -> bool:
 # A frame is three steps, so that the window can ask what a key means once earlier keys are carried out: the
 # state grows a frame older, each action is carried out, and a kiosk left alone shows its title.
 
-_OFF_THE_SHEET = frozenset(
-    {
-        *("edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers", "pencil", "own_trace"),
-        *("poses", "mechanism", "select", "put", "closure", "reset", "returns"),
-    }
-)
-"""Actions for which a sheet is left first."""
-_IN_THE_LIST = frozenset({"closure", "reset", "returns"})
-"""Those of these actions that stay on the sheet while the list of dimensions is open on it."""
 Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
@@ -595,7 +530,6 @@ def aged(state: State) -> State:
     sinces = ((name, getattr(state, name), life) for name, life in _LIVES.items())
     over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
-    state = building.rested(state)
     for mode in state.modes:
         state = mode.aged(state)
     if state.glide:
@@ -614,24 +548,20 @@ def carried(state: State, action: Action) -> State:
     if state.game and action.name not in beside:
         return _in_a_game(state, state.game, action)
     rule = own.get(action.name) or ACTIONS[action.name]
-    if any(action.name in one.refuses for one in state.modes) or (state.building and action.name in REFUSED):
-        return state
+    refusals = (one.forbids(state, action) for one in state.modes)
+    if (why := next((one for one in refusals if one is not None), None)) is not None:
+        return with_toast(state, why) if why else state
     if state.game and action.name in _SHEETS:
         state = leave(state)
         if state.building and action.name == "build":
             return state  # the sheet that was open beneath
-    numbers = state.mode == "numbers"
-    if action.name in _OFF_THE_SHEET and not (numbers and action.name in _IN_THE_LIST):
-        state = building.left(state)
     for mode in reversed(state.modes):
         state = mode.ready_for(state, action)
 
-    if action.name == "list" and state.building and (missing := state.building.building.made.missing):
-        return with_toast(state, missing)  # only a linkage that moves has quantities
-    handle = building.in_list(state, action.name, rule.handle)
-
     def handled(before: State) -> State:
-        after = building.agreed(before, handle(before, action.value))
+        after = rule.handle(before, action.value)
+        for mode in after.modes:
+            after = mode.agreed(before, after)
         return with_chip(after, rule.answer(before, after)) if rule.answer else after
 
     return _tried(state, action, handled)

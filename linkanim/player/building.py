@@ -1,47 +1,93 @@
-"""Actions of the sheet: it is opened and left, the hand draws on it, the chosen thing is changed."""
+"""Two modes: the sheet, on which a linkage is built by hand, and the list of dimensions on it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from math import ceil, dist, radians, tau
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkanim.build import building as built
 from linkanim.build import dimensions, gestures
 from linkanim.build.building import Building, building_of, choosing, draft_of, knowing
-from linkanim.build.draft import JOINT
+from linkanim.build.draft import JOINT, Thing
 from linkanim.build.meanings import Meaning, drag, meanings
 from linkanim.build.numbers import chosen_row, renumbered, rows_of_all, thing_at
 from linkanim.build.storing import restored, stored
-from linkanim.build.tools import TOOLS
+from linkanim.build.tools import TOOLS, Tool
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, unnameable
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NEW
+from linkanim.picture.overlay import NEW, EditRow, Overlay, Panel
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.view import Box
+from linkanim.player import rules
+from linkanim.player.action import Action, Value
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.edits import drop, exchanged, nudged
+from linkanim.player.edits import (
+    HINT,
+    Dimensions,
+    carry,
+    closure,
+    drop,
+    exchanged,
+    grab,
+    measured,
+    nudged,
+    panel_of,
+    reset,
+    returns,
+)
 from linkanim.player.edits import put as put_on
+from linkanim.player.keys import (
+    BACK_BAR,
+    HOME_BAR,
+    LAST_BAR,
+    LIST_KEYS,
+    MOVING_BAR,
+    TAKEN,
+    BarEntry,
+    KeyRow,
+    ModeKeys,
+    TypedKeys,
+    aims,
+    both,
+    enter,
+    on,
+    tabs,
+    undo_keys,
+)
+from linkanim.player.shown import built as shown_on
+from linkanim.player.shown import called, stated, subscripted_words
+from linkanim.player.sketching import REFUSED
 from linkanim.player.sketching import left as abandoned
 from linkanim.player.state import (
     BLANK,
     HOME,
     LIVE,
+    STILL,
     BuildSheet,
     Editing,
     Grip,
+    Mode,
+    Resolver,
+    Rule,
     State,
     cleared,
+    driven_bar,
     nothing_begun,
     with_toast,
     with_undo,
 )
+from linkanim.scenes.editing import Dimension, in_unit, other_closure
 from linkanim.scenes.editing import dimensions as dimensions_of
-from linkanim.scenes.editing import other_closure
 from linkanim.units import shown
+
+if TYPE_CHECKING:
+    from linkanim.player.devices import Gesture, Mouse, Outside
+    from linkanim.player.screen import Screen
 
 Handler = Callable[[State, Any], State]
 
@@ -57,15 +103,24 @@ _DAMAGED = "is damaged, or not a draft of linkanim"
 DRAFT = Intake("a draft", most_bytes=5_000_000, most_values=500_000)
 _FARTHEST = 1e15
 """The farthest coordinate that is visible on a sheet."""
+_OFF_THE_SHEET = frozenset(
+    {
+        *("edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers", "pencil", "own_trace"),
+        *("poses", "mechanism", "select", "put", "closure", "reset", "returns"),
+    }
+)
+"""Actions for which the sheet is left first."""
+_IN_THE_LIST = frozenset({"closure", "reset", "returns"})
+"""Those of these actions that stay on the sheet while the list of dimensions is open on it."""
 LOST = "the draft is not saved: Ctrl+S saves it; press again to begin anew"
 _MEANT = "the draft is not saved: Ctrl+S saves it; press again to close, and it is offered next time"
 
 
 def build(state: State, _: None) -> State:
     """Open the sheet, as it was left if there is one; or leave it with what was built on it."""
-    if state.sheet is None:
-        return _opened(state, Building())
-    return left(state) if state.sheet.open else _opened(state, state.sheet.building)
+    if state.building:
+        return left(state)
+    return _opened(state, state.sheet.building if state.sheet else Building())
 
 
 def build_on(state: State, _: None) -> State:
@@ -74,7 +129,7 @@ def build_on(state: State, _: None) -> State:
     Its undo continues into earlier edits. Where the scene came from a sheet, that sheet is opened again.
     """
     sheet, editing = state.sheet, state.editing
-    if sheet and sheet.open:
+    if state.building:
         return left(state)
     if sheet and sheet.building.made.scene is state.scene:
         return _opened(state, sheet.building)
@@ -95,8 +150,8 @@ def numbers(state: State, _: None) -> State:
         return state
     if not rows_of_all(sheet.building.draft):
         return with_toast(state, BLANK)
-    editing = cleared(replace(state.editing, drafts=()), open=not state.editing.open)
-    return replace(state.unlisted, editing=editing, held=None)
+    bare = replace(state.unlisted, editing=cleared(replace(state.editing, drafts=())), held=None)
+    return bare.without(SheetNumbers) if state.edits_dimensions else bare.with_mode(SheetNumbers())
 
 
 def new(state: State, _: None) -> State:
@@ -122,7 +177,7 @@ def _is_undone_to(state: State, sheet: BuildSheet) -> bool:
 def _opened(state: State, building: Building, *, known: bool = False) -> State:
     """Return the state with a sheet open over its scene; `known` says that its draft is in a file."""
     state, last = abandoned(drop(state, None)), state.sheet
-    editing = nothing_begun(replace(state.editing, open=False))
+    editing = nothing_begun(state.editing)
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
     sheet = replace(sheet, look=state.look)
     if last and not known:
@@ -130,16 +185,18 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
     elif building.draft.places:
         sheet = replace(sheet, home=figure(state.scene).box)
     look = replace(state.look, unit=None, zoom=1.0, pan=(0.0, 0.0), chart=None)
-    bare = replace(state.unlisted, editing=Editing(), glide=None, toast=None, look=look)
+    bare = state.unlisted.without(Dimensions).with_mode(OpenSheet())
+    bare = replace(bare, editing=Editing(), glide=None, toast=None, look=look)
     return _shown(replace(bare, sheet=sheet, faded=state.frame), building)
 
 
 def left(state: State) -> State:
     """Leave the sheet: a linkage that moves becomes the scene, which can be undone; the sheet is kept."""
-    sheet = state.sheet
-    if sheet is None or not sheet.open:
+    sheet = state.building
+    if sheet is None:
         return state
-    after = replace(state, sheet=replace(sheet, open=False, grip=None, cursor=None, warned=False))
+    after = state.without(OpenSheet).without(SheetNumbers)
+    after = replace(after, sheet=replace(sheet, grip=None, cursor=None, rests=None, warned=False))
     after = replace(after, faded=state.frame, look=_look_after(state, sheet), held=None)
     if sheet.building.made.scene is None:
         return replace(after, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
@@ -167,8 +224,9 @@ def draft(state: State, text: str) -> State:
 
 def offered(state: State, text: str, where: str) -> State:
     """Return the state with a sheet read from its stored text, for F2 to open."""
-    sheet = replace(restored_sheet(state, text, where), open=False, closes=True)
-    return replace(state, sheet=sheet, beneath=state.beneath and replace(state.beneath, sheet=sheet))
+    sheet = replace(restored_sheet(state, text, where), closes=True)
+    bare, beneath = state.without(OpenSheet), state.beneath
+    return replace(bare, sheet=sheet, beneath=beneath and replace(beneath, sheet=sheet))
 
 
 def stored_text(sheet: BuildSheet) -> str:
@@ -263,7 +321,7 @@ def rested(state: State) -> State:
     sheet = state.sheet
     if sheet is None or sheet.rests is None:
         return state
-    if state.clock.paused or not sheet.open:
+    if state.clock.paused:
         return replace(state, sheet=replace(sheet, rests=None))
     if state.frame < sheet.rests:
         return state
@@ -273,16 +331,16 @@ def rested(state: State) -> State:
 
 def tool(state: State, name: str) -> State:
     """Take a tool; a linkage that runs goes back to its drawn pose, and rests there."""
-    sheet = state.sheet
-    if sheet and sheet.open and sheet.building.made.scene and not state.clock.paused:
+    sheet = state.building
+    if sheet and sheet.building.made.scene and not state.clock.paused:
         state = replace(state, clock=state.clock.go(state.frame, sheet.building.draft.phase, paused=True))
     return _with(state, tool=name, grip=None, anchor=None, span=None)
 
 
 def tool_on(state: State, by: int) -> State:
     """Take the next tool of the bar; where the last drag has several meanings, carry out the next one."""
-    sheet = state.sheet
-    if sheet is None or not sheet.open:
+    sheet = state.building
+    if sheet is None:
         return state
     if sheet.meant is not None:
         return offer(state, sheet.meant + by)
@@ -309,8 +367,8 @@ def down(state: State, at: tuple[float, float, float, float]) -> State:
 
     Where only the pose that was visible had something at the point, it rests at the nearest whole degree.
     """
-    sheet = state.sheet
-    if sheet is None or not sheet.open:
+    sheet = state.building
+    if sheet is None:
         return state
     x, y, reach, snap = at
     base, ran = sheet.building, not state.clock.paused
@@ -432,31 +490,24 @@ def _scaled(state: State, sheet: BuildSheet, one: complex, other: complex) -> St
 
 def take(state: State, _: None) -> State:
     """Take the typed value: for the distance of two points of a photograph, or for the chosen thing."""
-    sheet = state.sheet
-    if (
-        sheet
-        and sheet.open
-        and sheet.tool == "photo"
-        and sheet.anchor
-        and sheet.span
-        and sheet.building.typed
-    ):
+    sheet = state.building
+    if sheet and sheet.tool == "photo" and sheet.anchor and sheet.span and sheet.building.typed:
         return _scaled(state, sheet, complex(*sheet.anchor), complex(*sheet.span))
     return _taken(state, None)
 
 
 def offer(state: State, place: int) -> State:
     """Carry out another of the meanings of the last drag."""
-    sheet = state.sheet
-    if sheet is None or not sheet.open or sheet.grip or sheet.meant is None:
+    sheet = state.building
+    if sheet is None or sheet.grip or sheet.meant is None:
         return state
     return _shown(state, sheet.offers[place % len(sheet.offers)].building)
 
 
 def cursor(state: State, at: tuple[float, float]) -> State:
     """Move the keys' cursor to a point; a gesture begun by keys follows."""
-    sheet = state.sheet
-    if sheet is None or not sheet.open:
+    sheet = state.building
+    if sheet is None:
         return state
     if sheet.grip:
         state = along(state, (*at, 0.0, sheet.grip.snap))
@@ -482,8 +533,8 @@ def _changed(work: Callable[..., Building]) -> Handler:
     """Make a handler of a function that changes the building; an action's value is passed on to it."""
 
     def handle(state: State, value: Any) -> State:
-        sheet = state.sheet
-        if sheet is None or not sheet.open or sheet.grip:
+        sheet = state.building
+        if sheet is None or sheet.grip:
             return state
         building = work(sheet.building, *(() if value is None else (value,)))
         return _shown(_with(state, clicked=None), building)
@@ -507,8 +558,8 @@ drive = _changed(gestures.drive)
 
 def reassemble(state: State, _: None) -> State:
     """Put the first loop together the other way."""
-    sheet = state.sheet
-    if sheet is None or not sheet.open or sheet.grip:
+    sheet = state.building
+    if sheet is None or sheet.grip:
         return state
     scene = sheet.building.made.scene
     if scene is None:
@@ -550,10 +601,10 @@ def agreed(before: State, after: State) -> State:
         building = renumbered(sheet.building, after.scene, grows=grows)
         editing = replace(after.editing, past=before.editing.past, future=before.editing.future)
         after = replace(_with(after, building=building, rests=None, warned=False), editing=editing)
-        return _chosen_by_row(after) if editing.open else after
-    if not after.editing.open:
+        return _chosen_by_row(after) if after.edits_dimensions else after
+    if not after.edits_dimensions:
         return after
-    if was is None or not before.editing.open:
+    if was is None or not before.edits_dimensions:
         return _rowed(after) if sheet.building.chosen else _chosen_by_row(after)
     if sheet.building is not was.building:
         if sheet.building.draft is not was.building.draft:
@@ -638,15 +689,6 @@ _WHILE_IT_STANDS: Mapping[str, Handler] = {
 """Handlers for the list of dimensions on a sheet with nothing that moves: its rows are the draft's."""
 
 
-def in_list(state: State, name: str, usual: Handler) -> Handler:
-    """Return the handler of an action of the list of dimensions on the sheet: a special one, or `usual`."""
-    sheet = state.building
-    if sheet is None or not state.editing.open:
-        return usual
-    instead = _WHILE_IT_STANDS if sheet.building.made.scene is None else _OWN_ROWS if sheet.rowed else {}
-    return instead.get(name, usual)
-
-
 def let_go(state: State) -> State | None:
     """Return the state without a gesture, typed text, a choice, or a special tool; None where there is none.
 
@@ -656,7 +698,7 @@ def let_go(state: State) -> State | None:
     assert sheet
     if sheet.grip:
         return off(state, None)
-    if state.editing.open:
+    if state.edits_dimensions:
         bare = _with(state, building=replace(sheet.building, typed="", sentence=""))
         begun = state.editing.begun or sheet.building.typed
         return replace(bare, editing=nothing_begun(state.editing)) if begun else None
@@ -669,9 +711,340 @@ def let_go(state: State) -> State | None:
 
 def _with(state: State, **changes: Any) -> State:
     """Return the state with these changes of its sheet, if one is open."""
-    sheet, building = state.sheet, changes.get("building")
-    if sheet is None or not sheet.open:
+    sheet, building = state.building, changes.get("building")
+    if sheet is None:
         return state
     if building and building.draft is sheet.building.draft:
         knowing(building, sheet.building.made)
     return replace(state, sheet=replace(sheet, **changes))
+
+
+# Which things are under the hand, and what the keys and the mouse do there.
+
+
+def thing_under(screen: Screen, x: float, y: float) -> Thing | None:
+    """Return the thing of the draft under a pixel: as it is drawn, or as it is shown while it moves."""
+    sheet, state = screen.state.building, screen.state
+    assert sheet
+    place = screen.world(x, y)
+    if not state.clock.paused and (thing := gestures.under(sheet.building.draft, *place, screen.near)):
+        return thing
+    return gestures.under(sheet.seen(state.scene, state.phase), *place, screen.near)
+
+
+def _begun_at(screen: Screen, x: float, y: float) -> str:
+    """Return what the hand does at a pixel: it draws ("hand"), turns the "crank", or shifts the "paper"."""
+    sheet = screen.state.building
+    assert sheet
+    near = thing_under(screen, x, y)
+    if sheet.tool == "photo":
+        return "hand"
+    if near is None:
+        return "paper" if sheet.tool in ("bar", "move") else "hand"
+    moves = sheet.building.made.scene is not None and sheet.tool in ("bar", "move")
+    return "crank" if moves and near == driven_bar(sheet.building.draft) else "hand"
+
+
+def _aim(window: Outside, way: Value) -> Iterator[Action]:
+    """Yield what an arrow means: the cursor moves."""
+    sheet = window.state.building
+    if sheet and window.screen.state.building and isinstance(way, tuple):
+        yield Action("cursor", window.screen.aimed(sheet.cursor, way))
+
+
+def _enter(window: Outside, twice: Value) -> Iterator[Action]:
+    """Yield what Enter means: a number is taken, or the hand goes down or up at the cursor."""
+    sheet, screen = window.state.building, window.screen
+    if sheet is None or screen.state.building is None:
+        return
+    if sheet.building.typed:
+        yield Action("take_number")
+    elif sheet.grip:
+        yield Action("hand_up")
+    elif sheet.cursor:
+        x, y = screen.pixel(*sheet.cursor)
+        on_grid = thing_under(screen, x, y) is None
+        click = Action("hand_down", screen.handed(x, y, 1.0, on_grid=on_grid)), Action("hand_up")
+        on_paper = _begun_at(screen, x, y) == "paper"
+        yield from 2 * click if twice else click if on_paper else click[:1]
+
+
+def _handed(name: str, mouse: Mouse, screen: Screen) -> Action:
+    """Return the hand's action at the mouse; off all things its place is moved to a near line of the grid."""
+    return mouse.handed(name, screen, on_grid=thing_under(screen, *mouse.at) is None)
+
+
+def _of_tool(tool: Tool) -> KeyRow:
+    """Return the line of a tool; a tool on a digit also has Ctrl with it, for where digits are typed."""
+    key = tool.key.lower()
+    keys = f"{key} kp{key} ctrl+{key} ctrl+kp{key}" if key.isdigit() else key
+    return KeyRow(tool.key, tool.name, on(keys, tool.action, tool.value))
+
+
+_SHEET_KEYS = (
+    KeyRow("Ctrl+← →", "choose", both("ctrl+left", "ctrl+right", "further")),
+    KeyRow("Del", "remove it and what depends on it", on("delete", "remove")),
+    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("unbuild", "rebuild")),
+    KeyRow("E", "the list of all dimensions; E again: without it", on("e", "numbers")),
+    KeyRow("Ctrl+N", "an empty sheet", on("ctrl+n", "sheet")),
+    KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", on("f2", "build")),
+    KeyRow("Esc", "let go; leave the sheet", on("escape", "back")),
+)
+"""The meaning of keys on a sheet, with or without the list of dimensions."""
+
+
+def _in_list(name: str, usual: Handler | None) -> Handler:
+    """Return the handler of an action in the list on a sheet, which may be for the sheet's own rows."""
+
+    def handle(state: State, value: Any) -> State:
+        sheet = state.building
+        own = _WHILE_IT_STANDS if sheet and sheet.building.made.scene is None else {}
+        own = own or (_OWN_ROWS if sheet and sheet.rowed else {})
+        work = own.get(name, usual)
+        return work(state, value) if work else state
+
+    return handle
+
+
+_LIST_ACTIONS: Mapping[str, tuple[Callable[[object], bool], Handler]] = {
+    **{name: Dimensions.actions[name][:2] for name in ("type", "erase", "take", "choose", "pass_on")},
+    **{name: Dimensions.actions[name][:2] for name in ("grab_row", "nudge", "pull")},
+    **{"reset": (rules.nothing, reset), "returns": (rules.nothing, returns)},
+    **{"grab": (rules.text, grab), "carry": (rules.numbers(3), carry), "closure": (rules.nothing, closure)},
+}
+"""Actions that may be for the sheet's own rows while the list is open: their tests and usual handlers."""
+
+
+def _panel_of_draft(building: Building) -> Panel:
+    """Return the list of all numbers of a draft that does not move, and what is missing for it to move."""
+    draft, at = building.draft, chosen_row(building)
+    rows = (
+        EditRow(
+            subscripted_words(f"{called(draft, one.thing)}, {one.row.label}"),
+            stated(one.row, building, n == at),
+            chosen=n == at,
+            draft=n == at and building.typed != "",
+        )
+        for n, one in enumerate(rows_of_all(draft))
+    )
+    error = building.sentence if building.is_refusal else None
+    return Panel(tuple(rows), facts=(), error=error, hint=HINT)
+
+
+def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
+    """Return whether the thing chosen on the sheet, if any, is that of the list's chosen row."""
+    sheet = sheet_of(state)
+    if not sheet.rowed:
+        return True
+    at = state.editing.chosen % max(len(items), 1)
+    things = (thing_at(sheet.building.draft, state.scene, item.key) for item in items[at : at + 1])
+    return sheet.building.chosen in things
+
+
+@frozen
+class OpenSheet(Mode):
+    """The open sheet, on which a linkage is built: the state's `sheet`."""
+
+    keys = ModeKeys(
+        "build",
+        {
+            "in F2": (
+                KeyRow(
+                    "click, drag",
+                    "set a ground pin; draw a bar from a pin or joint; double-click a bar: a point of it",
+                ),
+                KeyRow("let go on a joint, line, bar", "join the bar there; make a slider; make a slot"),
+                KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
+                *map(_of_tool, TAKEN),
+                KeyRow(
+                    "digits, Enter",
+                    "type the value of what is chosen, if anything is; Ctrl+↑ ↓: its other rows, "
+                    "name and colour too",
+                    both("ctrl+up", "ctrl+down", "number") + on("backspace", "undigit", held=True),
+                ),
+                KeyRow(
+                    "arrows (Shift: fine), Enter",
+                    "move a cursor; press and release there",
+                    aims() + enter("enter"),
+                ),
+                KeyRow(
+                    "Shift+Enter",
+                    "a point of the body at the cursor",
+                    on("shift+return shift+kp_enter insert", "enter", 2),
+                ),
+                KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", tabs("tool_on")),
+                KeyRow("B", "the other closure", on("b", "reassemble")),
+                *_SHEET_KEYS,
+            ),
+        },
+        TypedKeys("digits", begins="123456789.-"),
+        names={Action("build"): "done: leave the sheet and keep the linkage"},
+    )
+    bar = (
+        BACK_BAR,
+        HOME_BAR,
+        *MOVING_BAR,
+        BarEntry("edit", Action("numbers"), 7, leads=True),
+        BarEntry("undo", Action("unbuild"), 5, leads=True),
+        BarEntry("redo", Action("rebuild"), 9),
+        BarEntry("new", Action("sheet"), 6, leads=True),
+        BarEntry("save", Action("save"), 4),
+        BarEntry("done", Action("build"), 3),
+        *LAST_BAR,
+    )
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "build": Rule(rules.nothing, build),
+        "build_on": Rule(rules.nothing, build_on),
+        "sheet": Rule(rules.nothing, new),
+        "draft": Rule(rules.text, draft),  # a draft as it is stored
+        "numbers": Rule(rules.nothing, numbers),
+        "tool": Rule(rules.text, tool),
+        "tool_on": Rule(rules.whole, tool_on),  # tools further
+        "photo": Rule(rules.text, photo),  # a picture's file, "" for none
+        "hand_down": Rule(rules.hand, down),  # (x, y), how near counts as on it, the step of what is drawn
+        "hand_to": Rule(rules.hand, along),
+        "hand_up": Rule(rules.nothing, up),
+        "cursor": Rule(rules.place_of_sheet, cursor),  # (x, y) of the sheet
+        "further": Rule(rules.whole, further),
+        "offer": Rule(rules.whole, offer),  # the place of what the last drag can mean
+        "number": Rule(rules.whole, number),
+        "option_on": Rule(rules.nothing, option),  # another of what the chosen row can be
+        "digits": Rule(rules.text, write),
+        "undigit": Rule(rules.nothing, erase),
+        "take_number": Rule(rules.nothing, take),
+        "reassemble": Rule(
+            rules.nothing, reassemble, answer=rules.closure
+        ),  # as "closure", and the sheet stays
+        "remove": Rule(rules.nothing, remove),
+        "trace_on": Rule(rules.nothing, trace),
+        "drive_by": Rule(rules.nothing, drive),
+        "unbuild": Rule(rules.nothing, undo, answer=rules.stuck("nothing to undo")),
+        "rebuild": Rule(rules.nothing, redo, answer=rules.stuck("nothing to redo")),
+    }
+    meanings: ClassVar[Mapping[str, Resolver]] = {"aim": _aim, "enter": _enter}
+    has_head, has_tools, is_sheet, is_paper = True, True, True, True
+
+    def typing(self, state: State) -> bool:
+        """Return whether a value or a name is being typed."""
+        building = sheet_of(state).building
+        return bool(building.typed or building.lettered)
+
+    def look(self, look: Look) -> Look:
+        """Return the look, without numbers."""
+        return replace(look, hud=False)
+
+    def forbids(self, state: State, action: Action) -> str | None:
+        """Refuse edits of the scene, another unit, and quantities of what does not move."""
+        if action.name in REFUSED:
+            return ""
+        return (sheet_of(state).building.made.missing or None) if action.name == "list" else None
+
+    def ready_for(self, state: State, action: Action) -> State:
+        """Leave the sheet for an action on the scene."""
+        stays = state.edits_dimensions and action.name in _IN_THE_LIST
+        return left(state) if action.name in _OFF_THE_SHEET and not stays else state
+
+    def agreed(self, before: State, after: State) -> State:
+        """Return the state with the sheet and the open list of dimensions in agreement."""
+        return agreed(before, after)
+
+    def aged(self, state: State) -> State:
+        """Let the linkage rest once it has run for a period."""
+        return rested(state)
+
+    def closed(self, state: State) -> State:
+        """Let go of a gesture, typed text, a choice, or a tool; else leave the sheet."""
+        return let_go(state) or left(state)
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the draft, or the linkage, words, tools, and what is under the hand."""
+        return replace(over, build=shown_on(state, sheet_of(state), over.hover), paused=False)
+
+    def menu(self, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+        """Choose what a right click is on, and list its commands; else list all."""
+        chosen = sheet_of(screen.state).tool in ("bar", "move") and thing_under(screen, *mouse.at)
+        click = (_handed("hand_down", mouse, screen), Action("hand_up"), Action("menu", "chosen"))
+        return click if chosen else (Action("menu"),)
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Draw, take a tool, turn the crank, or shift the paper; None where the mouse acts as usual."""
+        if gesture.kind == "down" and screen.charted(*mouse.at) is None:
+            tool, row = screen.tool_at(*mouse.at), screen.sheet_row_at(*mouse.at)
+            if row is not None:
+                mouse.drag = None
+                return (row,)
+            if tool is not None:
+                mouse.drag = None
+                return (Action(TOOLS[tool].action, TOOLS[tool].value),)
+            begun = _begun_at(screen, *mouse.at)
+            mouse.turns = begun == "crank"
+            mouse.drag = "paper" if begun == "paper" else "hand"
+            return (_handed("hand_down", mouse, screen),) if mouse.drag == "hand" else ()
+        if mouse.drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
+            return None
+        drag, stays = mouse.drag, mouse.far <= STILL * screen.size[1]
+        if gesture.kind == "move":
+            if mouse.turns and not stays:  # no click, which would choose the crank
+                mouse.drag = "crank"
+                return (Action("back"), *mouse.moved(screen))
+            if drag == "hand":
+                return () if mouse.turns else (_handed("hand_to", mouse, screen),)
+            return () if stays else (Action("pan", gesture.by),)
+        mouse.drag = None
+        if drag == "hand":
+            return (Action("hand_up"),)
+        return (_handed("hand_down", mouse, screen), Action("hand_up")) if stays else ()
+
+
+@frozen
+class SheetNumbers(Dimensions):
+    """The open list of dimensions on a sheet: of the linkage, or of a draft that does not move."""
+
+    keys = ModeKeys(
+        "numbers",
+        {
+            "in E": LIST_KEYS,
+            "in E, F2": (
+                KeyRow("click, drag", "what they do on the sheet; beside it, what they do in the list"),
+                KeyRow(
+                    "Ctrl+↑ ↓",
+                    "a row of what is chosen, to be typed: name and colour too",
+                    both("ctrl+up", "ctrl+down", "number"),
+                ),
+                *_SHEET_KEYS,
+            ),
+        },
+        TypedKeys("type", frozenset({"space", "h", "e"})),
+    )
+    bar = OpenSheet.bar
+    actions: ClassVar[Mapping[str, Rule]] = {
+        **Dimensions.actions,
+        **{name: Rule(check, _in_list(name, usual)) for name, (check, usual) in _LIST_ACTIONS.items()},
+    }
+    meanings: ClassVar[Mapping[str, Resolver]] = {}
+
+    def typing(self, state: State) -> bool:
+        """Return whether a value is being typed, in the list or for the chosen thing."""
+        return bool(state.editing.typed or sheet_of(state).building.typed)
+
+    def closed(self, state: State) -> State:
+        """Discard what is typed; else leave list and sheet, which are one mode."""
+        return let_go(state) or left(state)
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the list of the linkage, or of the draft where nothing moves."""
+        sheet = sheet_of(state)
+        if sheet.building.made.scene is None:
+            return replace(over, panel=_panel_of_draft(sheet.building))
+        items = dimensions_of(in_unit(state.scene, state.look.unit))
+        lines = () if sheet.rowed else tuple(measured(state, items))
+        return replace(over, panel=panel_of(state, items, lit=_has_row(state, items)), measured=lines)
+
+    def menu(self, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+        """Choose what a right click is on, and list its commands; else list all."""
+        return OpenSheet().menu(mouse, screen)
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Act on the list where the mouse is on it, else on the sheet."""
+        found = self.on_list(gesture, mouse, screen) if mouse.drag in (None, "row") else None
+        return OpenSheet().mouse(gesture, mouse, screen) if found is None else found

@@ -62,25 +62,11 @@ _CONSTRUCTED = {
     "pencil": BarEntry("done", Action("back"), 2),
 }
 """What stands in the place of other buttons while a construction is drawn."""
-_BUILD_ON = BarEntry("build", Action("build_on"), 12)
+BUILD_ON_BAR = BarEntry("build", Action("build_on"), 12)
 """Beside the list of dimensions, the tools work on the linkage that is shown."""
-_SHEET = (
-    BACK_BAR,
-    HOME_BAR,
-    *MOVING_BAR,
-    BarEntry("edit", Action("numbers"), 7, leads=True),
-    BarEntry("undo", Action("unbuild"), 5, leads=True),
-    BarEntry("redo", Action("rebuild"), 9),
-    BarEntry("new", Action("sheet"), 6, leads=True),
-    BarEntry("save", Action("save"), 4),
-    BarEntry("done", Action("build"), 3),
-    *LAST_BAR,
-)
 _HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
     "play": (HOME_BAR._replace(rank=0), *_SCENE),
     "paused": (HOME_BAR._replace(rank=0), *_SCENE),
-    "edit": tuple(_BUILD_ON if one.icon == "build" else one for one in LISTED_BAR),
-    **{"build": _SHEET, "numbers": _SHEET},
     "game": (BACK_BAR, HOME_BAR, *LAST_BAR),
 }
 
@@ -110,21 +96,6 @@ def _entries(state: State) -> tuple[BarEntry, ...]:
     if state.constructed and state.mode in ("play", "paused"):
         return tuple(_CONSTRUCTED.get(one.icon, one) for one in LISTED_BAR)
     return state.top.bar if state.top else _HANDLES[state.mode]
-
-
-_OF_THE_LIST: Mapping[Action, tuple[Action, ...]] = {
-    Action("unbuild"): (Action("undo"),),
-    Action("rebuild"): (Action("redo"),),
-    Action("tool", "move"): (),
-}
-"""What tools mean beside the list of dimensions alone, where joints can be moved already."""
-
-
-def tool_asks(state: State, action: Action) -> tuple[Action, ...]:
-    """Return the actions of a tool; beside the list of dimensions alone it first opens the sheet."""
-    if state.mode != "edit":
-        return (action,)
-    return _OF_THE_LIST.get(action, (Action("build_on"), Action("numbers"), action))
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
@@ -360,7 +331,7 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     ),
     Action("taking"): lambda state: state.recording is not None,
     Action("menu"): _shows("Commands"),
-    **dict.fromkeys((Action("edit"), Action("numbers")), lambda state: state.editing.open),
+    **dict.fromkeys((Action("edit"), Action("numbers")), lambda state: state.edits_dimensions),
     Action("help"): lambda state: state.help,
     Action("theory"): lambda state: state.posing is not None and state.posing.curves,
 }

@@ -15,7 +15,6 @@ from typing import Literal, Protocol
 import pygame
 from pygame.event import Event
 
-from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import OwnFile
 from linkanim.player.action import Action
@@ -23,7 +22,7 @@ from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import Bind, ModeKeys, Press, bind_of, button_name, hat_name, key_of
 from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
-from linkanim.player.state import NEAR_HAND, REACH, State
+from linkanim.player.state import NEAR_HAND, REACH, STILL, State
 from linkanim.scenes.editing import phase_along, phase_towards
 
 # The keyboard: key events become presses, and a held key an action that repeats.
@@ -324,8 +323,6 @@ _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
 MOUSE_EVENTS = tuple(_KINDS)
 _DOUBLE = 24
 """The most frames between the clicks of a double click on a button."""
-_STILL = 0.006
-"""How far the hand may move in a click on paper, in heights of the window."""
 _LET_GO: Mapping[Drag | None, str] = {
     **{"pan": "", "crank": "", "chart": "", "paper": "", "joint": "drop"},
     **{"pen": "pen_off", "lead": "let_go", "hand": "back"},
@@ -340,11 +337,15 @@ def latest(events: list[Event]) -> list[Event]:
 
 
 class Gesture(NamedTuple):
-    """What the left button or the wheel did: notches away, and how far the mouse moved, in window heights."""
+    """What the left button or the wheel did: notches away, and how far the mouse moved, in window heights.
+
+    Steps are `coarser` by a factor with Shift.
+    """
 
     kind: Literal["wheel", "down", "up", "move"]
     notches: int
     by: tuple[float, float]
+    coarser: int = 1
 
 
 class Mouse:
@@ -354,12 +355,12 @@ class Mouse:
         self.drag: Drag | None = None
         self.at = self.begun = (0.0, 0.0)
         self.far, self.steps = 0.0, 0
-        self._turned: int | None = None
+        self.turned: int | None = None
         self._slider = 0
         self.under: int | None = None
         self._seen, self._moved_in = False, 0
         self._down_in = 0
-        self._is_long = self.draws = self._turns = False
+        self._is_long = self.draws = self.turns = False
         self._pressed: tuple[Action, ...] = ()
         self._pressed_at, self._pressed_in = (0.0, 0.0), -_DOUBLE - 1
 
@@ -381,7 +382,7 @@ class Mouse:
         if kind == "up" and self._presses_long(screen):
             return self._pressed_long(screen)
         height = screen.size[1]
-        gesture = Gesture(kind, notches, ((self.at[0] - x) / height, (self.at[1] - y) / height))
+        gesture = Gesture(kind, notches, ((self.at[0] - x) / height, (self.at[1] - y) / height), _coarser())
         found = self._on_the_bar(gesture, screen)
         stirred = (Action("stir"),) * (kind in ("move", "down") and self.drag in (None, "bar", "speed"))
         return (*stirred, *(self._elsewhere(gesture, screen) if found is None else found))
@@ -398,13 +399,8 @@ class Mouse:
         top = screen.state.top
         if top and (found := top.mouse(gesture, self, screen)) is not None:
             return found
-        modes = {
-            **{"build": self._of_the_sheet, "numbers": self._of_the_numbers, "edit": self._of_the_tools},
-            "game": self._in_a_game,
-        }
-        mode = modes.get(screen.state.mode)
-        found = mode(gesture, screen) if mode else None
-        found = self._on_a_list(gesture, screen) if found is None else found
+        in_game = screen.state.mode == "game"
+        found = self._in_a_game(gesture, screen) if in_game else None
         return self._on_the_picture(gesture, screen) if found is None else found
 
     def _menu(self, screen: Screen) -> tuple[Action, ...]:
@@ -415,10 +411,8 @@ class Mouse:
             return (Action("back"),)
         if screen.button_at(*self.at) is not None:
             return (Action("menu"),)
-        if screen.state.building:
-            chosen = screen.on_sheet(*self.at)
-            click = (self.handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
-            return click if chosen else (Action("menu"),)
+        if screen.state.top and (asked := screen.state.top.menu(self, screen)) is not None:
+            return asked
         if screen.state.mode in _THINGS_IN and (
             found := screen.pointed(*self.at, NEAR_HAND * screen.size[1])
         ):
@@ -481,7 +475,7 @@ class Mouse:
         It then does once more what it did, as a second press of a key does: it undoes it.
         """
         at_once = screen.state.frame - self._pressed_in <= _DOUBLE
-        return at_once and math.dist(self._pressed_at, self.at) <= _STILL * screen.size[1]
+        return at_once and math.dist(self._pressed_at, self.at) <= STILL * screen.size[1]
 
     def _slid(self, screen: Screen) -> tuple[Action, ...]:
         return slid(screen.state, self._slider, screen.share_at(self._slider, self.at[0]))
@@ -519,34 +513,17 @@ class Mouse:
                 if handle:
                     return (Action("grab", handle),)
                 if curve:  # the curve's joint moves to the hand
-                    return (Action("grab", curve[0]), *self._moved(screen))
-                return self._moved(screen) if self.drag == "chart" else ()
+                    return (Action("grab", curve[0]), *self.moved(screen))
+                return self.moved(screen) if self.drag == "chart" else ()
             case "up":
                 held, self.drag = self.drag, None
                 return (Action("drop"),) if held == "joint" else ()
-        return (Action("pan", gesture.by),) if self.drag == "pan" else self._moved(screen)
+        return (Action("pan", gesture.by),) if self.drag == "pan" else self.moved(screen)
 
     def _on_a_row(self, screen: Screen) -> str | None:
         """Return the label of the row of numbers under the mouse; None elsewhere."""
         found = screen.pointed(*self.at, NEAR_HAND * screen.size[1]) if self.drag is None else None
         return found.thing.name if found and found.thing and found.thing.kind == "row" else None
-
-    def _on_a_list(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return the actions on the open list of a click, the wheel or a dragged value; None off it."""
-        if self.drag == "row" and gesture.kind in ("move", "up"):
-            return self._pulled(gesture, screen)
-        row = screen.row_at(*self.at) if self.drag in (None, "row") else None
-        if row is None or screen.state.mode not in ("edit", "numbers"):
-            return None
-        if gesture.kind == "wheel":
-            # A long list scrolls below a mouse that stands still, so the row where the wheel began is kept.
-            self._turned = row if self._turned is None else self._turned
-            return self._wheeled(gesture.notches, self._turned)
-        self._turned = None
-        if gesture.kind != "down" or row < 0:
-            return ()
-        self.drag, self.steps = "row", 0
-        return (Action("grab_row", row),)
 
     def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a click in a game: the answer that is there, else to go on.
@@ -560,20 +537,6 @@ class Mouse:
         if option is None and (screen.over.handles or at_joint or self._is_at_pin(screen)):
             return None
         return (Action("next") if option is None else Action("option", option),)
-
-    def _wheeled(self, notches: int, row: int) -> tuple[Action, ...]:
-        """Return the nudges of the value under the mouse; elsewhere in a list, the choice of another row."""
-        if row >= 0:
-            return (Action("grab_row", row), Action("drop"), Action("nudge", notches * _coarser()))
-        return (Action("choose", -notches),)
-
-    def _pulled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Return the change of the held row's value, by how far the mouse has moved to the right."""
-        if gesture.kind == "up":
-            self.drag = None
-            return (Action("drop"),)
-        before, self.steps = self.steps, round((self.at[0] - self.begun[0]) / (_PULL * screen.size[1]))
-        return (Action("pull", self.steps * _coarser()),) if self.steps != before else ()
 
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list under the mouse; None before the mouse was seen."""
@@ -605,58 +568,16 @@ class Mouse:
         pin = screen.crank_pin()
         return max(abs(self.at[0] - pin[0]), abs(self.at[1] - pin[1])) <= REACH * screen.size[1]
 
-    def _of_the_tools(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Take a tool beside the list of dimensions; None where the mouse acts as usual."""
-        tool = screen.tool_at(*self.at) if gesture.kind == "down" and self.drag is None else None
-        if tool is None:
-            return None
-        self.drag = "bar"
-        return (Action(TOOLS[tool].action, TOOLS[tool].value),)
-
-    def _of_the_numbers(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Act on the list of dimensions where the mouse is on it, else on the sheet."""
-        found = self._on_a_list(gesture, screen) if self.drag in (None, "row") else None
-        return self._of_the_sheet(gesture, screen) if found is None else found
-
-    def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Draw on the sheet, take a tool, turn the crank, or shift the paper; None without a sheet."""
-        if gesture.kind == "down" and screen.charted(*self.at) is None:
-            tool, row = screen.tool_at(*self.at), screen.sheet_row_at(*self.at)
-            if row is not None:
-                self.drag = None
-                return (row,)
-            begun = screen.sheet_at(*self.at) if tool is None else None
-            if tool is not None:
-                self.drag = None
-                return (Action(TOOLS[tool].action, TOOLS[tool].value),)
-            self._turns = begun == "crank"
-            self.drag = "paper" if begun == "paper" else "hand"
-            return (self.handed("hand_down", screen),) if self.drag == "hand" else ()
-        if self.drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
-            return None
-        drag, stays = self.drag, self.far <= _STILL * screen.size[1]
-        if gesture.kind == "move":
-            if self._turns and not stays:  # no click, which would choose the crank
-                self.drag = "crank"
-                return (Action("back"), *self._moved(screen))
-            if drag == "hand":
-                return () if self._turns else (self.handed("hand_to", screen),)
-            return () if stays else (Action("pan", gesture.by),)
-        self.drag = None
-        if drag == "hand":
-            return (Action("hand_up"),)
-        return (self.handed("hand_down", screen), Action("hand_up")) if stays else ()
-
-    def handed(self, name: str, screen: Screen) -> Action:
+    def handed(self, name: str, screen: Screen, *, on_grid: bool = False) -> Action:
         """Return the hand's action on the sheet; its step is a tenth with Shift, and none with Alt."""
         mods = pygame.key.get_mods()
         part = 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0
-        return Action(name, screen.handed(*self.at, part))
+        return Action(name, screen.handed(*self.at, part, on_grid=on_grid))
 
     def over_sheet(self, screen: Screen) -> tuple[float, float] | None:
         """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
-        modes = ("build", "numbers", "edit")
-        shown = self._seen and screen.state.mode in modes and self.drag in (None, "hand")
+        top = screen.state.top
+        shown = self._seen and top and top.has_tools and self.drag in (None, "hand")
         return self.at if shown else None
 
     def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
@@ -676,7 +597,8 @@ class Mouse:
         x, y = screen.from_middle(*self.at) if self._seen else (0.0, 0.0)
         return (Action("zoom", (float(notches), x, y)),)
 
-    def _moved(self, screen: Screen) -> tuple[Action, ...]:
+    def moved(self, screen: Screen) -> tuple[Action, ...]:
+        """Return the actions of what is dragged, where the mouse is now."""
         if self.drag == "pace":
             before = self.steps
             self.steps = round((self.at[0] - self.begun[0]) / (_PULL * screen.size[1]))

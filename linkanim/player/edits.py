@@ -1,21 +1,34 @@
-"""Actions that show another scene, and that edit the dimensions of the present one, with undo and redo."""
+"""Actions that show another scene; and a mode: the list of dimensions, with undo and redo."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
+from typing import TYPE_CHECKING, ClassVar
 
 from linkanim.build.building import Step
+from linkanim.build.tools import TOOLS
 from linkanim.errors import LinkanimError
+from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import Info
+from linkanim.picture.overlay import DimensionLine, EditRow, Overlay, Panel, ToolBar
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
+from linkanim.player import rules
+from linkanim.player.action import Action, Value
+from linkanim.player.commands import BUILD_ON_BAR, LISTED_BAR
+from linkanim.player.keys import LIST_KEYS, KeyRow, ModeKeys, TypedKeys, on
+from linkanim.player.shown import subscripted_words
 from linkanim.player.state import (
+    FLASH_FRAMES,
     Edited,
     Editing,
     Grasp,
     Held,
+    Mode,
+    Resolver,
+    Rule,
     Sketch,
     State,
     check_of_turning,
@@ -41,6 +54,7 @@ from linkanim.scenes.editing import (
     in_unit,
     other_closure,
     other_return,
+    stretches,
     traced,
     with_dimensions,
     with_document,
@@ -49,7 +63,11 @@ from linkanim.scenes.editing import (
 )
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
-from linkanim.units import metre
+from linkanim.units import metre, significant, typeset
+
+if TYPE_CHECKING:
+    from linkanim.player.devices import Gesture, Mouse, Outside
+    from linkanim.player.screen import Screen
 
 # Actions that show another scene: from the shelf, or the other closure; the open list of quantities.
 
@@ -125,14 +143,14 @@ def put_on(state: State, place: int) -> State:
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
     bare = replace(state.unlisted.without(Sketch), held=None, glide=None, turned=None, faded=state.frame)
     bare = replace(bare, arrived=state.frame)
-    editing = replace(was.editing if was else Editing(), open=state.editing.open)
+    editing = was.editing if was else Editing()
     others = tuple(one for one in kept if one is not was)
     return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
 
 
 def _kept_edits(state: State) -> tuple[Edited, ...]:
     """Return the edited scenes of all places; the present one's bare, and without its typed values."""
-    own = replace(state.editing, open=False, typed="", drafts=(), refusal=None, warned=False)
+    own = replace(state.editing, typed="", drafts=(), refusal=None, warned=False)
     if not own.changed:
         return state.kept
     past, future = (tuple(scene.bare for scene in scenes) for scenes in (own.past, own.future))
@@ -194,9 +212,8 @@ _NUDGE = {
 def edit(state: State, _: None) -> State:
     """Open or close the list; a joint is dropped, typed values are discarded, undo and redo stay."""
     state = drop(state, None)
-    state = choose(replace(state, editing=replace(state.editing, drafts=())), 0)
-    editing = replace(state.editing, open=not state.editing.open)
-    return replace(state.unlisted, editing=editing)
+    state = choose(replace(state, editing=replace(state.editing, drafts=())), 0).unlisted
+    return state.without(Dimensions) if state.edits_dimensions else state.with_mode(Dimensions())
 
 
 def choose(state: State, further: int) -> State:
@@ -279,14 +296,14 @@ def edit_at(state: State, joint: str) -> State:
     found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
     if not found:
         return with_toast(state, f"no dimension of its own places joint {joint}")
-    state = state if state.editing.open else edit(state, None)
+    state = state if state.edits_dimensions else edit(state, None)
     keys = [item.key for item in dimensions(state.scene)]
     return choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
 
 
 def edit_row(state: State, row: int) -> State:
     """Open the list of dimensions at a row."""
-    state = state if state.editing.open else edit(state, None)
+    state = state if state.edits_dimensions else edit(state, None)
     return choose(state, row - state.editing.chosen)
 
 
@@ -327,11 +344,11 @@ def grab(state: State, joint: str) -> State:
 
     The picture stands still; the list goes to the joint's dimension.
     """
-    if not state.editing.open:
+    if not state.edits_dimensions:
         return _grasped(state, joint)
     keys = [item.key for item in dimensions(state.scene)]
     found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
-    if not state.editing.open or not found:
+    if not state.edits_dimensions or not found:
         return state
     held = Held(joint, state.scene, state.phase, not state.clock.paused)
     state = drop(state, None)
@@ -359,7 +376,7 @@ def carry(state: State, to: tuple[float, float, float]) -> State:
 def grab_row(state: State, row: int) -> State:
     """Grasp a row's value; a value typed in another row waits as a draft."""
     items, state = dimensions(state.scene), drop(state, None)
-    if not state.editing.open or not 0 <= row < len(items):
+    if not state.edits_dimensions or not 0 <= row < len(items):
         return state
     further = row - state.editing.chosen % len(items)
     held = Held("", state.scene, state.phase, not state.clock.paused)
@@ -509,3 +526,179 @@ def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
     words = {".".join(map(str, item.key)): item.label for item in dimensions(scene) if item.key in values}
     key, _, reason = message.partition(": ")
     return f"{words[key]}: {reason}" if key in words else message
+
+
+# What is shown of the list, and what its tools and the mouse do.
+
+HINT = (
+    "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
+    "Ctrl+S save   Esc closes"
+)
+_DIRECTIONS = ("along", "to the left", "to the right", "x", "y")
+"""The words at the end of the labels of places, and the opposite side's."""
+_STEPS = 12
+"""The number of shades of a flash; each is drawn once."""
+_PULL = 0.011
+"""How far a drag of a value is for one step, in heights of the window."""
+_MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
+"""The tool that is in hand beside the list."""
+_INSTEAD: Mapping[Action, tuple[Action, ...]] = {
+    Action("unbuild"): (Action("undo"),),
+    Action("rebuild"): (Action("redo"),),
+    Action("tool", "move"): (),
+}
+"""What tools mean beside the list, where joints can be moved already."""
+
+
+def _tool(name: str) -> Resolver:
+    """Return the resolver of a tool: beside the list alone it first opens the sheet."""
+
+    def resolved(window: Outside, value: Value) -> tuple[Action, ...]:
+        asked = Action(name, value)
+        if type(window.state.top) is not Dimensions:
+            return (asked,)
+        return _INSTEAD.get(asked, (Action("build_on"), Action("numbers"), asked))
+
+    return resolved
+
+
+def measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:
+    """Yield the line of the chosen dimension, and those of the others that give the same place."""
+    if not items:
+        return
+    known, scene = {item.key: item for item in items}, in_unit(state.scene, state.look.unit)
+    chosen = items[state.editing.chosen % len(items)].key
+    for frame, begin, end, key in stretches(scene, chosen):
+        yield DimensionLine(frame, begin, end, _worded(known[key], _digits(state)), key == chosen)
+
+
+def _worded(item: Dimension, digits: int) -> str:
+    """Return a dimension's value; for a place on a body, its direction and the value without a sign."""
+    direction = item.label.rpartition(", ")[2]
+    if direction == "to the left" and item.value < 0:
+        item, direction = replace(item, value=-item.value), "to the right"
+    return f"{direction} {_valued(item, digits)}" if direction in _DIRECTIONS else _valued(item, digits)
+
+
+def _valued(item: Dimension, digits: int) -> str:
+    return typeset(f"{significant(item.value, digits)} {item.unit}".strip())
+
+
+def _digits(state: State) -> int:
+    """Return how many digits a dimension has: all that were written; in another unit, enough."""
+    return 10 if state.look.unit in (None, state.scene.length_unit) else 6
+
+
+def _flash(state: State) -> float:
+    """Return how bright the facts are, from 1 as they change down to 0, in a few steps."""
+    if state.turned is None:
+        return 0.0
+    part = (state.frame - state.turned) / FLASH_FRAMES
+    return round(_STEPS * (1.0 - part) ** 2) / _STEPS
+
+
+def panel_of(state: State, items: tuple[Dimension, ...], *, lit: bool) -> Panel:
+    """Return the list of dimensions, with typed values in their rows, the chosen one `lit`."""
+    editing, info = state.editing, in_unit(state.scene, state.look.unit).info
+    at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
+    at = at if lit else -1
+    begun |= {item.key: f"{editing.typed}_" for n, item in enumerate(items) if n == at and editing.typed}
+    shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
+    rows = (
+        EditRow(subscripted_words(item.label), value, chosen=n == at, draft=item.key in begun)
+        for n, (item, value) in enumerate(zip(items, shown, strict=True))
+    )
+    return Panel(
+        tuple(rows),
+        facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
+        flash=_flash(state),
+        error=editing.refusal,
+        hint=HINT,
+    )
+
+
+@frozen
+class Dimensions(Mode):
+    """The open list of dimensions of the scene."""
+
+    keys = ModeKeys(
+        "edit",
+        {
+            "in E": (
+                *LIST_KEYS,
+                KeyRow("F2", "the tools, for this linkage; E shows the list again", on("f2", "build_on")),
+            )
+        },
+        TypedKeys("type", frozenset({"space", "h", "e"})),
+    )
+    bar = tuple(BUILD_ON_BAR if one.icon == "build" else one for one in LISTED_BAR)
+    actions: ClassVar[Mapping[str, Rule]] = {
+        "edit": Rule(rules.nothing, edit),
+        "edit_at": Rule(rules.text, edit_at),  # a joint
+        "edit_row": Rule(rules.whole, edit_row),  # a row of the list
+        "choose": Rule(rules.whole, choose),
+        "pass_on": Rule(rules.whole, pass_on),
+        "nudge": Rule(rules.whole, nudge),
+        "type": Rule(rules.text, write),
+        "erase": Rule(rules.nothing, erase),
+        "take": Rule(rules.nothing, take),
+        "grab_row": Rule(rules.whole, grab_row),  # a row of the list
+        "pull": Rule(rules.whole, pull),  # steps from the value that was taken hold of
+    }
+    meanings: ClassVar[Mapping[str, Resolver]] = {name: _tool(name) for name in {one.action for one in TOOLS}}
+    is_listed, has_tools, edits_dimensions = True, True, True
+
+    def typing(self, state: State) -> bool:
+        """Return whether a value is being typed."""
+        return bool(state.editing.typed)
+
+    def closed(self, state: State) -> State:
+        """Discard what is typed; else close the list."""
+        return (
+            replace(state, editing=nothing_begun(state.editing)) if state.editing.begun else edit(state, None)
+        )
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the list, tools, and the chosen dimension's lines."""
+        items = dimensions(in_unit(state.scene, state.look.unit))
+        tools = ToolBar(_MOVES, over.hover.tool if over.hover else None, typed=True)
+        lines = tuple(measured(state, items))
+        return replace(over, panel=panel_of(state, items, lit=True), tools=tools, measured=lines)
+
+    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Take a tool, or act on the list; None where the mouse acts as usual."""
+        is_down = gesture.kind == "down" and mouse.drag is None
+        tool = screen.tool_at(*mouse.at) if is_down else None
+        if tool is not None:
+            mouse.drag = "bar"
+            return (Action(TOOLS[tool].action, TOOLS[tool].value),)
+        return self.on_list(gesture, mouse, screen)
+
+    def on_list(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+        """Return the actions on the list of a click, the wheel or a dragged value; None off it."""
+        if mouse.drag == "row" and gesture.kind in ("move", "up"):
+            return self._pulled(gesture, mouse, screen)
+        row = screen.row_at(*mouse.at) if mouse.drag in (None, "row") else None
+        if row is None:
+            return None
+        if gesture.kind == "wheel":
+            # A long list scrolls below a mouse that stands still, so the row where the wheel began is kept.
+            mouse.turned = row if mouse.turned is None else mouse.turned
+            if mouse.turned < 0:
+                return (Action("choose", -gesture.notches),)
+            nudged = Action("nudge", gesture.notches * gesture.coarser)
+            return (Action("grab_row", mouse.turned), Action("drop"), nudged)
+        mouse.turned = None
+        if gesture.kind != "down" or row < 0:
+            return ()
+        mouse.drag, mouse.steps = "row", 0
+        return (Action("grab_row", row),)
+
+    def _pulled(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+        """Return the change of the held row's value, by how far the mouse has moved to the right."""
+        if gesture.kind == "up":
+            mouse.drag = None
+            return (Action("drop"),)
+        before = mouse.steps
+        mouse.steps = round((mouse.at[0] - mouse.begun[0]) / (_PULL * screen.size[1]))
+        return (Action("pull", mouse.steps * gesture.coarser),) if mouse.steps != before else ()

@@ -111,16 +111,21 @@ class Framing:
 
     def _docked(self, state: State) -> Docked:
         """Return what has room of its own."""
-        has_tools = self._window and state.editing.open and not (state.modes or state.game)
+        has_tools = self._window and state.top is not None and state.top.has_tools
         row = state.sketch is not None and bool(state.sketch.answers)
-        head = bool(state.building or state.constructed) or any(one.has_head for one in state.modes)
-        return Docked(2 if has_tools else int(state.listed), row, self._window, head and not state.listed)
+        head = state.constructed > 0 or any(one.has_head for one in state.modes)
+        return Docked(
+            2 if has_tools and state.listed else int(state.listed),
+            row,
+            self._window,
+            head and not state.listed,
+        )
 
     def _look(self, state: State) -> Look:
         """Return the look of a state."""
         for mode in state.modes:
             state = replace(state, look=mode.look(state.look))
-        drawn = state.building or state.constructed
+        drawn = state.constructed
         look = replace(state.look, hud=False) if drawn else state.look
         return replace(look, centres=0) if state.constructed else look
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from functools import cache
 
-from linkanim.build.tools import TOOLS, Tool
+from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Value
@@ -249,87 +249,36 @@ KEYS: Table = {
 """Every key of the window, by subject, in the order in which the help shows them."""
 
 
-def _of_tool(tool: Tool) -> KeyRow:
-    """Return the line of a tool; a tool on a digit also has Ctrl with it, for where digits are typed."""
-    key = tool.key.lower()
-    keys = f"{key} kp{key} ctrl+{key} ctrl+kp{key}" if key.isdigit() else key
-    return KeyRow(tool.key, tool.name, on(keys, tool.action, tool.value))
-
-
-_TAKEN = tuple(tool for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
+TAKEN = tuple(tool for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
 _WITH_CTRL = KeyRow(
     "Ctrl+1–9, F, Shift+T, D",
     "a tool, to add parts; a trace, the drive",
-    tuple(bind for one in _TAKEN for bind in on(f"ctrl+{one.key.lower()}", one.action, one.value)),
+    tuple(bind for one in TAKEN for bind in on(f"ctrl+{one.key.lower()}", one.action, one.value)),
 )
 """The tools where letters and digits are typed."""
-_SHEET_KEYS = (
-    KeyRow("Ctrl+← →", "choose", both("ctrl+left", "ctrl+right", "further")),
-    KeyRow("Del", "remove it and what depends on it", on("delete", "remove")),
-    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("unbuild", "rebuild")),
-    KeyRow("E", "the list of all dimensions; E again: without it", on("e", "numbers")),
-    KeyRow("Ctrl+N", "an empty sheet", on("ctrl+n", "sheet")),
-    KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", on("f2", "build")),
-    KeyRow("Esc", "let go; leave the sheet", on("escape", "back")),
-)
-"""The meaning of keys on a sheet, with or without the list of dimensions."""
-_IN_A_MODE: Table = {
-    "in E": (
-        KeyRow("↑ ↓", "choose a dimension", both("up", "down", "choose")),
-        KeyRow("← → (Shift: ×10)", "nudge it", steps("nudge")),
-        KeyRow("Tab, Shift+Tab", "the next row; the typed value waits", tabs("pass_on")),
-        KeyRow(
-            "digits, Enter",
-            "type a value, with or without a unit; take all typed values",
-            enter("take", "erase"),
-        ),
-        KeyRow("F2", "the tools, for this linkage; E shows the list again", on("f2", "build_on")),
-        _WITH_CTRL,
-        KeyRow("Ctrl+B", "let an input that swings return on the same closure", on("ctrl+b", "returns")),
-        KeyRow("Ctrl+R", "reset: the file's dimensions again", on("ctrl+r", "reset")),
-        KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
-        KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+LIST_KEYS = (
+    KeyRow("↑ ↓", "choose a dimension", both("up", "down", "choose")),
+    KeyRow("← → (Shift: ×10)", "nudge it", steps("nudge")),
+    KeyRow("Tab, Shift+Tab", "the next row; the typed value waits", tabs("pass_on")),
+    KeyRow(
+        "digits, Enter",
+        "type a value, with or without a unit; take all typed values",
+        enter("take", "erase"),
     ),
+    _WITH_CTRL,
+    KeyRow("Ctrl+B", "let an input that swings return on the same closure", on("ctrl+b", "returns")),
+    KeyRow("Ctrl+R", "reset: the file's dimensions again", on("ctrl+r", "reset")),
+    KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
+    KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+)
+"""The meaning of keys in the list of dimensions, of a scene or on a sheet."""
+_IN_A_MODE: Table = {
     "in a game": (
         KeyRow("1–9, click", "choose an answer or a door", digits("option")),
         KeyRow("Enter, Space", "go on", on("return kp_enter space", "next")),
         KeyRow("← → (Shift: ×10)", "turn the crank", steps("turn")),
         KeyRow("↑ ↓", "choose", both("down", "up", "raise")),
         KeyRow("Esc", "out of it", ()),
-    ),
-    "in F2": (
-        KeyRow(
-            "click, drag",
-            "set a ground pin; draw a bar from a pin or joint; double-click a bar: a point of it",
-        ),
-        KeyRow("let go on a joint, line, bar", "join the bar there; make a slider; make a slot"),
-        KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
-        *map(_of_tool, _TAKEN),
-        KeyRow(
-            "digits, Enter",
-            "type the value of what is chosen, if anything is; Ctrl+↑ ↓: its other rows, name and colour too",
-            both("ctrl+up", "ctrl+down", "number") + on("backspace", "undigit", held=True),
-        ),
-        KeyRow(
-            "arrows (Shift: fine), Enter", "move a cursor; press and release there", aims() + enter("enter")
-        ),
-        KeyRow(
-            "Shift+Enter",
-            "a point of the body at the cursor",
-            on("shift+return shift+kp_enter insert", "enter", 2),
-        ),
-        KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", tabs("tool_on")),
-        KeyRow("B", "the other closure", on("b", "reassemble")),
-        *_SHEET_KEYS,
-    ),
-    "in E, F2": (
-        KeyRow("click, drag", "what they do on the sheet; beside it, what they do in the list"),
-        KeyRow(
-            "Ctrl+↑ ↓",
-            "a row of what is chosen, to be typed: name and colour too",
-            both("ctrl+up", "ctrl+down", "number"),
-        ),
-        *_SHEET_KEYS,
     ),
 }
 """The meaning of keys in a mode, by its subject; it takes precedence over their usual meaning."""
@@ -398,30 +347,13 @@ class ModeKeys:
         return _binds(self.table)
 
 
-def _in(name: str, subject: str, typed: TypedKeys | None = None) -> ModeKeys:
-    return ModeKeys(name, {subject: _IN_A_MODE[subject]}, typed)
-
-
 _ANGLE = TypedKeys("type_place", begins="0123456789", further="0123456789.")
 RUNNING = ModeKeys("play", typed=_ANGLE)
 """The keys while a mechanism runs: digits are an input angle."""
-_LIST_OF_SHEET = {
-    "in E": tuple(row for row in _IN_A_MODE["in E"] if row.keys != "F2"),
-    "in E, F2": _IN_A_MODE["in E, F2"],
-}
-_VALUE = TypedKeys("type", frozenset({"space", "h", "e"}))
 OF_MODES: tuple[ModeKeys, ...] = (
     RUNNING,
     ModeKeys("paused", typed=_ANGLE),
-    _in("edit", "in E", _VALUE),
-    ModeKeys("numbers", _LIST_OF_SHEET, _VALUE),
     ModeKeys("game", {"in a game": _IN_A_MODE["in a game"]}, names={Action("back"): "out of it"}),
-    ModeKeys(
-        "build",
-        {"in F2": _IN_A_MODE["in F2"]},
-        TypedKeys("digits", begins="123456789.-"),
-        names={Action("build"): "done: leave the sheet and keep the linkage"},
-    ),
 )
 
 
@@ -561,7 +493,7 @@ _APART: Mapping[Action, str] = {
     Action("lift", -1): "lay the layers nearer together",
     Action("further", 1): "the next one",
     Action("further", -1): "the one before",
-    **{Action(one.action, one.value): one.name for one in _TAKEN},
+    **{Action(one.action, one.value): one.name for one in TAKEN},
     Action("tool_on", 1): "the next tool, or what the drag can mean else",
     Action("tool_on", -1): "the tool before",
     Action("remove"): "remove what is chosen",

@@ -179,9 +179,9 @@ class Listing(Mode):
     meanings: ClassVar[Mapping[str, Resolver]] = {"pick": _pick, "tick": _tick}
     is_listed, gives_way, leads = True, True, True
 
-    @property
-    def typing(self) -> bool:
-        """Whether the list is filtered."""
+    def typing(self, state: State) -> bool:
+        """Return whether the list is filtered."""
+        del state
         return bool(self.sieve)
 
     @property
@@ -204,7 +204,8 @@ class Listing(Mode):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list, in the place of any other."""
-        return replace(over, quantities=self._rows(state), panel=None, game=None, spots=(), handles=())
+        bare = replace(over, panel=None, tools=None, game=None, spots=(), handles=())
+        return replace(bare, quantities=self._rows(state))
 
     def _rows(self, state: State) -> Quantities:
         scene = state.displayed

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from linkanim.player.building import OpenSheet, SheetNumbers
+from linkanim.player.edits import Dimensions
 from linkanim.player.finding import Finder
 from linkanim.player.keys import KEYS, OF_MODES, PAD_KEYS, ModeKeys
 from linkanim.player.listing import Listing
@@ -15,7 +17,19 @@ from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import Mode, Resolver
 from linkanim.player.taking import TakeDialog
 
-MODES: tuple[type[Mode], ...] = (Listing, Finder, OpenShelf, Pencil, Posing, Layering, Naming, TakeDialog)
+MODES: tuple[type[Mode], ...] = (
+    Dimensions,
+    Listing,
+    Finder,
+    OpenShelf,
+    OpenSheet,
+    SheetNumbers,
+    Pencil,
+    Posing,
+    Layering,
+    Naming,
+    TakeDialog,
+)
 """The modes that can be open over the picture."""
 KEYS_OF: Mapping[str, ModeKeys] = {one.name: one for one in (*OF_MODES, *(mode.keys for mode in MODES))}
 """The keys of each mode, by its name."""

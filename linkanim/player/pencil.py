@@ -16,7 +16,7 @@ from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.dial import dial as turn_dial
 from linkanim.player.dial import dial_on, dialled, place_of
-from linkanim.player.edits import drop, exchanged
+from linkanim.player.edits import Dimensions, drop, exchanged
 from linkanim.player.keys import (
     BACK_BAR,
     HOME_BAR,
@@ -76,9 +76,10 @@ def pencil(state: State, _: None) -> State:
     if state.drawing:
         return left(state)
     state = drop(left(state), None)
-    editing = replace(state.editing, open=False)
+    editing = state.editing
     sketch = Pencil(state.scene, state.clock, nothing_begun(editing), state.displayed.length_unit)
-    state = replace(state.unlisted.with_mode(sketch), editing=editing, glide=None)
+    bare = state.unlisted.without(Dimensions)
+    state = replace(bare.with_mode(sketch), editing=editing, glide=None)
     return with_effect(replace(state, toast=None, faded=state.frame), "pencil")
 
 
@@ -363,13 +364,17 @@ class Pencil(PathSketch):
         "keep": Rule(rules.nothing, keep),
         "take_back": Rule(rules.nothing, take_back),
     }
-    refuses = REFUSED
     pointer = "pencil"
 
     @property
     def is_paper(self) -> bool:
         """Whether there is nothing but the paper yet."""
         return self.is_blank
+
+    def forbids(self, state: State, action: Action) -> str | None:
+        """Refuse edits of the scene, and another unit."""
+        del state
+        return "" if action.name in REFUSED else None
 
     def ready_for(self, state: State, action: Action) -> State:
         """Keep the answer, or leave it, for an action on a scene."""

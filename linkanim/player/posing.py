@@ -18,7 +18,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.overlay import AXIS, AnswerRow, DialShown, Overlay, PosesShown
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
-from linkanim.player.edits import drop
+from linkanim.player.edits import Dimensions, drop
 from linkanim.player.keys import (
     BACK_BAR,
     HOME_BAR,
@@ -83,11 +83,12 @@ def poses_(state: State, _: None) -> State:
     if state.posing:
         return left(state)
     state = drop(left(state), None)
-    editing, shown = replace(state.editing, open=False), state.displayed
+    editing, shown = state.editing, state.displayed
     sketch = Posing(state.scene, state.clock, nothing_begun(editing), shown.length_unit)
     if isinstance(shown.purpose, PosesPurpose):
         sketch = replace(sketch, poses=tuple(SetPose(*row) for row in shown.purpose.poses))
-    state = replace(state.unlisted.with_mode(sketch), editing=editing, glide=None)
+    bare = state.unlisted.without(Dimensions)
+    state = replace(bare.with_mode(sketch), editing=editing, glide=None)
     state = with_effect(replace(state, toast=None, faded=state.frame), "poses")
     return with_effect(state, "search") if sketch.is_asked else state
 
@@ -534,7 +535,6 @@ class Posing(PoseSketch):
         "remove": Rule(rules.nothing, remove),
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"aim": _aim, "enter": _enter}
-    refuses = REFUSED
     has_head = True
 
     @property
@@ -545,6 +545,11 @@ class Posing(PoseSketch):
     def look(self, look: Look) -> Look:
         """Return the look, without numbers."""
         return replace(look, hud=False)
+
+    def forbids(self, state: State, action: Action) -> str | None:
+        """Refuse edits of the scene, and another unit."""
+        del state
+        return "" if action.name in REFUSED else None
 
     def ready_for(self, state: State, action: Action) -> State:
         """Keep the answer, or leave it, for an action on a scene."""

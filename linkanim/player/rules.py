@@ -1,4 +1,4 @@
-"""Test the values of actions: a tape might say anything."""
+"""Test the values of actions, since a tape might say anything; and answers that several of them have."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import cast
 
 from linkanim.intake import control_in
+from linkanim.player.state import State
+from linkanim.scenes.editing import closure_name
 
 _MOST_NUMBERS = 1_000
 MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
@@ -107,3 +109,16 @@ def cards(value: object) -> bool:
     """Tell whether a value is a number and those of answers."""
     _, *sizes = _sizes_of_answers()
     return any(_grouped(value, size) for size in sizes)
+
+
+# Answers of actions that several modes have.
+
+
+def stuck(words: str) -> Callable[[State, State], str | None]:
+    """Return the answer of an action that says these words where nothing changed."""
+    return lambda was, now: words if (was.editing, was.sheet) == (now.editing, now.sheet) else None
+
+
+def closure(before: State, after: State) -> str | None:
+    """Say which of the two closures is shown."""
+    return None if after.scene is before.scene else closure_name(after.scene)

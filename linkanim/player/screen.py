@@ -13,13 +13,12 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from math import ceil, hypot, log10
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import pygame
 
-from linkanim.build.draft import UNTITLED, Draft, Thing
-from linkanim.build.gestures import under
+from linkanim.build.draft import UNTITLED
 from linkanim.errors import NoDisplay
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
@@ -27,7 +26,7 @@ from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.command_bar import BarPrinter, button_at, share_at
 from linkanim.picture.command_icons import window_icon
 from linkanim.picture.layout import Docked, Layout, layout
-from linkanim.picture.overlay import NEAR, Overlay
+from linkanim.picture.overlay import NEAR, Hover, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.sheet_rows import row_at
 from linkanim.picture.shelf import RowPrinter, ShelfPrinter, row_cells
@@ -39,8 +38,7 @@ from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.framing import Drawer, Fade, Framing
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
-from linkanim.player.shown import Hover
-from linkanim.player.state import State, driven_bar
+from linkanim.player.state import State
 from linkanim.scenes.editing import handles
 
 # The display: a window on a real screen.
@@ -344,7 +342,7 @@ class Screen:
         """
         last, state = self._framing.last, self.state
         is_paper = any(one.is_paper for one in state.modes)
-        if not (is_paper or state.building):
+        if not is_paper:
             box, view = last.figure.box, last.view
             (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
             x, y = min(max(x, left), right), min(max(y, top), low)
@@ -363,7 +361,7 @@ class Screen:
         state, free = self.state, self.over.handles
         scene = state.displayed
         leads = state.leads
-        if not (state.editing.open or free or leads):
+        if not (state.edits_dimensions or free or leads):
             return None
         places = scene.pose(self.state.phase, 0).position.items()
         away = {name: max(map(abs, self.away(place, x, y))) for name, place in places}
@@ -399,32 +397,6 @@ class Screen:
         """Return the share of the dial at a pixel's x."""
         room = self._framing.last.layout.dial
         return dial_value(room, x) if room else 0.0
-
-    def sheet_at(self, x: float, y: float) -> Literal["hand", "crank", "paper"]:
-        """Return what the hand does at a pixel of a sheet: it draws, turns the crank, shifts the paper."""
-        sheet = self.state.building
-        assert sheet
-        near, *_ = self._under(x, y)
-        if sheet.tool == "photo":
-            return "hand"
-        if near is None:
-            return "paper" if sheet.tool in ("bar", "move") else "hand"
-        moves = sheet.building.made.scene is not None and sheet.tool in ("bar", "move")
-        return "crank" if moves and near == driven_bar(sheet.building.draft) else "hand"
-
-    def _under(self, x: float, y: float) -> tuple[Thing | None, Draft]:
-        """Return the thing of a draft under a pixel, and the draft as it is shown."""
-        sheet = self.state.building
-        assert sheet
-        seen, place = sheet.seen(self.state.scene, self.state.phase), self.world(x, y)
-        if not self.state.clock.paused and (thing := under(sheet.building.draft, *place, self.near)):
-            return thing, sheet.building.draft
-        return under(seen, *place, self.near), seen
-
-    def on_sheet(self, x: float, y: float) -> bool:
-        """Return whether a click at a pixel of the sheet chooses something, and draws nothing."""
-        sheet = self.state.building
-        return bool(sheet and sheet.tool in ("bar", "move") and self._under(x, y)[0])
 
     @property
     def near(self) -> float:
@@ -476,14 +448,15 @@ class Screen:
         """Return the number of the tool under a pixel, where there are tools; None elsewhere."""
         return tool_at(self._framing.last.layout, x, y) if self.over.tool_bar else None
 
-    def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
+    def handed(
+        self, x: float, y: float, part: float, *, on_grid: bool = False
+    ) -> tuple[float, float, float, float]:
         """Return a pixel's place on the sheet, how near counts as on a thing, and `part` of the usual step.
 
-        Off all things a place near a line of the grid is moved onto it, unless `part` asks for a finer step.
+        With `on_grid` a place near a line of the grid is moved onto it, unless `part` asks for a finer step.
         """
         place = self.world(x, y)
-        if part == 1.0 and self.state.building and self._under(x, y)[0] is None:
-            place = self._gridded(*place)
+        place = self._gridded(*place) if on_grid and part == 1.0 else place
         return (*place, self.near, part * self.sheet_step)
 
     def hover(self, x: float, y: float) -> Hover:

@@ -21,7 +21,7 @@ from linkanim.player.keys import (
     digits,
     enter,
 )
-from linkanim.player.state import Mode, Resolver, Rule, State
+from linkanim.player.state import STILL, Mode, Resolver, Rule, State
 
 if TYPE_CHECKING:
     from linkanim.picture.shelf import Grid
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from linkanim.player.screen import Screen
 
 _LONGEST = 40
-_STILL = 0.006
-"""How far the hand may move in a click, in heights of the window."""
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 
 
@@ -205,9 +203,9 @@ class OpenShelf(Browsing, Mode):
     }
     gives_way = True
 
-    @property
-    def typing(self) -> bool:
-        """Whether the shelf is filtered."""
+    def typing(self, state: State) -> bool:
+        """Return whether the shelf is filtered."""
+        del state
         return bool(self.sieve)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
@@ -223,7 +221,7 @@ class OpenShelf(Browsing, Mode):
         from linkanim.picture.shelf import grid
 
         (x, y), drag, seen = mouse.at, mouse.drag, grid(screen.size, self)
-        moves = mouse.far > _STILL * screen.size[1]
+        moves = mouse.far > STILL * screen.size[1]
         match gesture.kind:
             case "wheel":
                 return (Action("scroll", -gesture.notches),)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 from math import atan2, degrees, dist, hypot, isnan
@@ -13,18 +12,15 @@ from linkanim.build.building import Building
 from linkanim.build.dimensions import PropertyRow, rows_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.gestures import under
-from linkanim.build.numbers import chosen_row, rows_of_all, thing_at
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.overlay import (
     BuildShown,
-    DimensionLine,
     DraftShown,
-    EditRow,
     Fading,
+    Hover,
     Overlay,
-    Panel,
     RowsShown,
     Rubber,
     SliderShown,
@@ -38,7 +34,6 @@ from linkanim.player.commands import bar
 from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, told
 from linkanim.player.state import (
-    FLASH_FRAMES,
     SHUTTER_FRAMES,
     BuildSheet,
     Changeover,
@@ -46,7 +41,6 @@ from linkanim.player.state import (
     State,
     driven_bar,
 )
-from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
 from linkanim.scenes.scene import TimeRatioPurpose
 from linkanim.units import short, significant, typeset
 
@@ -59,19 +53,12 @@ _WORDS = ("pin", "point", "slider", "yoke", "gear")
 """Shapes whose name says more than "joint"."""
 
 
-class Hover:
-    """What is under the mouse on a sheet: a place in its unit, and how near is on a thing; or a tool."""
-
-    def __init__(self, place: Point, reach: float, tool: int | None) -> None:
-        self.place, self.reach, self.tool = place, reach, tool
-
-
 def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildShown:
     """Return what an open sheet shows; `hover` is what is under the mouse there, if it is there."""
     building, seen = sheet.building, sheet.seen(state.scene, state.phase)
     shapes = drawn(seen)
     moves = building.made.scene is not None
-    measured = state.editing.open and moves and not sheet.rowed  # as beside the list of dimensions
+    measured = state.edits_dimensions and moves and not sheet.rowed  # as beside the list of dimensions
     sentence, facts = _words(state, sheet)
     tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
     return BuildShown(
@@ -88,7 +75,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         hand=sheet.grip.at if sheet.grip else None,
         photo=building.draft.photo,
         anchor=sheet.anchor,
-        tools=ToolBar(tool, hover.tool if hover else None, typed=state.editing.open),
+        tools=ToolBar(tool, hover.tool if hover else None, typed=state.edits_dimensions),
         is_warning=building.is_refusal and bool(building.sentence),
         panel=None if sheet.grip or measured else _numbers(building),
         offers=_offers(sheet),
@@ -104,13 +91,13 @@ def _numbers(building: Building) -> RowsShown | None:
     if thing is None or not found:
         return None
     row = building.row % len(found)
-    rows = [(one.label, _stated(one, building, n == row)) for n, one in enumerate(found)]
-    title = _subscripted(_called(draft, thing))
+    rows = [(one.label, stated(one, building, n == row)) for n, one in enumerate(found)]
+    title = subscripted_words(called(draft, thing))
     options = tuple(n for n, one in enumerate(found) if one.options)
     return RowsShown(title, tuple(rows), row, options=options)
 
 
-def _called(draft: Draft, thing: Thing) -> str:
+def called(draft: Draft, thing: Thing) -> str:
     """Return the words for a thing of a sheet: "pin O2", "bar A–B", "input"."""
     kind, name = thing[0].removesuffix("s"), thing[1]
     if thing[0] == JOINT:
@@ -118,7 +105,7 @@ def _called(draft: Draft, thing: Thing) -> str:
     return "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
 
 
-def _stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
+def stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
     """Return the text of a row: its value, or the typed text."""
     one = row.number
     if is_chosen and (building.typed or (building.lettered and not row.options)):
@@ -163,7 +150,7 @@ def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
         return building.sentence or missing, (missing,) if building.sentence else ()
     info = state.scene.info
     facts = (*filter(None, [info.grashof]), f"input {info.motion_words}")
-    if state.editing.open:
+    if state.edits_dimensions:
         return building.sentence, ()  # the list shows the rest
     if building.sentence:
         return building.sentence, (info.class_name, *facts)
@@ -247,22 +234,12 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
 
 # What lies over the picture: the state as an overlay.
 
-_HINT = (
-    "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
-    "Ctrl+S save   Esc closes"
-)
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
-_MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
-"""The tool that is in hand beside the list of dimensions."""
 FAMILY = 100
 """Steps from one end of a family of linkages to the other."""
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = r"\b[^\W\d_]\w*"
-_DIRECTIONS = ("along", "to the left", "to the right", "x", "y")
-"""The words at the end of the labels of places, and the opposite side's."""
-_STEPS = 12
-"""The number of shades of a flash; each is drawn once."""
 
 
 def overlay(
@@ -278,8 +255,7 @@ def overlay(
     These are what is under the mouse: `hover` a joint, `row` a row of a list, `over` a place of a sheet,
     `button` the number of a command on the bar, `pointed` a thing of the scene with words about it.
     """
-    items = _items(state)
-    lists = _lasting(state, items, over)
+    lists = _lasting(state, over)
     return replace(
         lists,
         panel=lists.panel and replace(lists.panel, pointed=row),
@@ -288,8 +264,6 @@ def overlay(
         chip=_chip(state),
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
-        measured=() if _stands_still(state) or _is_rowed(state) else tuple(_measured(state, items)),
-        tools=ToolBar(_MOVES, over.tool if over else None, typed=True) if state.mode == "edit" else None,
         glow=_glow(state, hover),
         told=told(state, pointed) if pointed else None,
         instant=pointed.instant if pointed else None,
@@ -316,48 +290,23 @@ def _glow(state: State, hover: str | None) -> str | None:
 
 def lasting(state: State) -> Overlay:
     """Return the part of the overlay that belongs on a screenshot: all that does not come and go."""
-    return _lasting(state, _items(state))
+    return replace(_lasting(state), measured=(), tools=None)
 
 
-def _items(state: State) -> tuple[Dimension, ...]:
-    """Return the dimensions of the open list."""
-    return dimensions(in_unit(state.scene, state.look.unit)) if state.editing.open else ()
-
-
-def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = None) -> Overlay:
+def _lasting(state: State, over: Hover | None = None) -> Overlay:
     found = Overlay(
         paused=_stands(state) and not (state.game or state.building),
         noted=True,
         recording=_recording(state),
         help=help_groups(state.keys, pad=state.pad) if state.help else None,
-        panel=_panel(state, items) if state.editing.open else None,
-        build=built(state, state.building, over) if state.building else None,
         construction=state.constructed,
         slider=_slider(state),
+        hover=over,
     )
     found = state.game.shown(state, found) if state.game else found
     for mode in state.modes:
         found = mode.shown(state, found)
-    return found
-
-
-def _stands_still(state: State) -> bool:
-    """Return whether a sheet is open with nothing that moves, so that there are no dimensions of a scene."""
-    return bool(state.building and state.building.building.made.scene is None)
-
-
-def _is_rowed(state: State) -> bool:
-    """Return whether typed text is for the chosen thing's rows on the sheet, not for the dimensions."""
-    return bool(state.building and state.building.rowed)
-
-
-def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
-    """Return whether the thing chosen on a sheet, if any, is that of the list's chosen row."""
-    sheet = state.building
-    if sheet is None or not sheet.rowed:
-        return True
-    things = (thing_at(sheet.building.draft, state.scene, item.key) for item in items)
-    return sheet.building.chosen in things
+    return replace(found, hover=None)
 
 
 def _stands(state: State) -> bool:
@@ -404,24 +353,6 @@ def _watch(state: State) -> Fading | None:
     return Fading(state.shown.look_at) if is_new or state.look.names else None
 
 
-def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:
-    """Yield the line of the chosen dimension, and those of the others that give the same place."""
-    if not items:
-        return
-    known, scene = {item.key: item for item in items}, in_unit(state.scene, state.look.unit)
-    chosen = items[state.editing.chosen % len(items)].key
-    for frame, begin, end, key in stretches(scene, chosen):
-        yield DimensionLine(frame, begin, end, _worded(known[key], _digits(state)), key == chosen)
-
-
-def _worded(item: Dimension, digits: int) -> str:
-    """Return a dimension's value; for a place on a body, its direction and the value without a sign."""
-    direction = item.label.rpartition(", ")[2]
-    if direction == "to the left" and item.value < 0:
-        item, direction = replace(item, value=-item.value), "to the right"
-    return f"{direction} {_valued(item, digits)}" if direction in _DIRECTIONS else _valued(item, digits)
-
-
 def _recording(state: State) -> str | None:
     if state.recording is None:
         return None
@@ -429,61 +360,7 @@ def _recording(state: State) -> str | None:
     return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
 
 
-def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
-    """Return the list of dimensions, with typed values in their rows."""
-    if state.building and _stands_still(state):
-        return _panel_of_draft(state.building.building)
-    editing, info = state.editing, in_unit(state.scene, state.look.unit).info
-    at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
-    at = at if _has_row(state, items[at : at + 1]) else -1
-    begun |= {item.key: f"{editing.typed}_" for n, item in enumerate(items) if n == at and editing.typed}
-    shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
-    rows = (
-        EditRow(_subscripted(item.label), value, chosen=n == at, draft=item.key in begun)
-        for n, (item, value) in enumerate(zip(items, shown, strict=True))
-    )
-    return Panel(
-        tuple(rows),
-        facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
-        flash=_flash(state),
-        error=editing.refusal,
-        hint=_HINT,
-    )
-
-
-def _panel_of_draft(building: Building) -> Panel:
-    """Return the list of all numbers of a draft that does not move, and what is missing for it to move."""
-    draft, at = building.draft, chosen_row(building)
-    rows = (
-        EditRow(
-            _subscripted(f"{_called(draft, one.thing)}, {one.row.label}"),
-            _stated(one.row, building, n == at),
-            chosen=n == at,
-            draft=n == at and building.typed != "",
-        )
-        for n, one in enumerate(rows_of_all(draft))
-    )
-    error = building.sentence if building.is_refusal else None
-    return Panel(tuple(rows), facts=(), error=error, hint=_HINT)
-
-
 @lru_cache(maxsize=512)
-def _subscripted(words: str) -> str:
+def subscripted_words(words: str) -> str:
+    """Return words with the digits at the ends of names as subscripts."""
     return re.sub(_NAME, lambda name: subscripted(name[0]), words)
-
-
-def _valued(item: Dimension, digits: int) -> str:
-    return typeset(f"{significant(item.value, digits)} {item.unit}".strip())
-
-
-def _digits(state: State) -> int:
-    """Return how many digits a dimension has: all that were written; in another unit, enough."""
-    return 10 if state.look.unit in (None, state.scene.length_unit) else 6
-
-
-def _flash(state: State) -> float:
-    """Return how bright the facts are, from 1 as they change down to 0, in a few steps."""
-    if state.turned is None:
-        return 0.0
-    part = (state.frame - state.turned) / FLASH_FRAMES
-    return round(_STEPS * (1.0 - part) ** 2) / _STEPS

@@ -60,7 +60,6 @@ class Editing(Undoable[Scene]):
     `saved` is the name of the saved scene, and its file.
     """
 
-    open: bool = False
     chosen: int = 0
     typed: str = ""
     drafts: tuple[tuple[Key, str], ...] = ()
@@ -315,7 +314,8 @@ class BuildSheet:
     scene file `saved`. `warned` says that the next request discards a draft that is in no file, `closes` that
     the next one closes the window nevertheless. With the list of dimensions open, typed text goes to the
     chosen thing's own row where that is `rowed`. `look` is the look before the sheet was opened: a sheet has
-    no chart, and a unit of its own. While it is not `open` the sheet is kept, so that one can go on with it.
+    no chart, and a unit of its own. After it was left
+    the sheet is kept, so that one can go on with it.
     """
 
     before: Scene
@@ -323,7 +323,6 @@ class BuildSheet:
     editing: Editing
     building: Building = field(default_factory=Building)
     home: Box = HOME
-    open: bool = True
     tool: str = "bar"
     grip: Grip | None = None
     clicked: tuple[int, Point] | None = None
@@ -399,7 +398,8 @@ class Mode:
     for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
     depend on what is visible, or outside. One that `is_listed` takes the room of a list; one that
     `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input. One that
-    `has_head` has words above the linkage. It `refuses` some actions, and may have a `pointer` of its own.
+    `has_head` has words above the linkage. One may have tools at the
+    edge, and a `pointer` of its own.
     """
 
     keys: ClassVar[ModeKeys]
@@ -410,12 +410,14 @@ class Mode:
     gives_way: ClassVar[bool] = False
     leads: ClassVar[bool] = False
     has_head: ClassVar[bool] = False
-    refuses: ClassVar[frozenset[str]] = frozenset()
+    has_tools: ClassVar[bool] = False
+    is_sheet: ClassVar[bool] = False
+    edits_dimensions: ClassVar[bool] = False
     pointer: ClassVar[str] = ""
 
-    @property
-    def typing(self) -> bool:
-        """Whether something has been begun by typing."""
+    def typing(self, state: State) -> bool:
+        """Return whether something has been begun by typing."""
+        del state
         return False
 
     @property
@@ -431,6 +433,16 @@ class Mode:
     def look(self, look: Look) -> Look:
         """Return the look of the picture under the mode."""
         return look
+
+    def forbids(self, state: State, action: Action) -> str | None:
+        """Return why an action is refused, "" for no words; None where it is not."""
+        del state, action
+        return None
+
+    def agreed(self, before: State, after: State) -> State:
+        """Return the state after any action, where the mode follows what has changed."""
+        del before
+        return after
 
     def ready_for(self, state: State, action: Action) -> State:
         """Return the state in which an action that is not of the mode is carried out."""
@@ -455,6 +467,11 @@ class Mode:
         del gesture, mouse, screen
         return None
 
+    def menu(self, mouse: Any, screen: Any) -> tuple[Action, ...] | None:
+        """Return the actions of a right click; None where it opens the list of commands as usual."""
+        del mouse, screen
+        return None
+
 
 OneMode = TypeVar("OneMode", bound=Mode)
 
@@ -463,6 +480,8 @@ OneMode = TypeVar("OneMode", bound=Mode)
 
 REACH, NEAR_HAND = 0.035, 0.02
 """How near counts as on a handle, and as on a joint or a curve, in heights of the window."""
+STILL = 0.006
+"""How far the hand may move in a click, in heights of the window."""
 PIVOTS = ("O2", "O4")
 """The fixed pins of every answer."""
 _MANY = 1e5
@@ -900,10 +919,6 @@ class State:
             return self.top.keys.name
         if self.game:
             return "game"
-        if self.editing.open:
-            return "numbers" if self.building else "edit"
-        if self.building:
-            return "build"
         return "paused" if self.clock.paused else "play"
 
     @property
@@ -930,7 +945,12 @@ class State:
     @property
     def building(self) -> BuildSheet | None:
         """The sheet, while it is open."""
-        return self.sheet if self.sheet and self.sheet.open and not self.game else None
+        return self.sheet if any(one.is_sheet for one in self.modes) else None
+
+    @property
+    def edits_dimensions(self) -> bool:
+        """Whether the list of dimensions is open."""
+        return any(one.edits_dimensions for one in self.modes)
 
     @property
     def edited(self) -> frozenset[int]:
@@ -974,19 +994,13 @@ class State:
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        is_list = self.editing.open or any(one.is_listed for one in self.modes)
+        is_list = any(one.is_listed for one in self.modes)
         return is_list or self.game is not None
 
     @property
     def typing(self) -> bool:
         """Whether something has been begun in the open list."""
-        if self.top:
-            return self.top.typing
-        sheet = self.building
-        if self.editing.open:
-            return bool(self.editing.typed or (sheet and sheet.building.typed))
-        begun = sheet.building.typed or sheet.building.lettered if sheet else self.place_typed
-        return bool(begun)
+        return self.top.typing(self) if self.top else bool(self.place_typed)
 
     @property
     def valued(self) -> bool:

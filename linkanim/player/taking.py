@@ -281,7 +281,12 @@ class TakeDialog(Mode):
         "take_refused": Rule(rules.text, refused),  # why it cannot be written there
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"taking": _opened, "take_start": _started}
-    typing, is_listed, leads = True, True, True
+    is_listed, leads = True, True
+
+    def typing(self, state: State) -> bool:
+        """Return that whatever is printed is typed."""
+        del state
+        return True
 
     @property
     def place(self) -> str:
@@ -300,7 +305,7 @@ class TakeDialog(Mode):
         is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
         facts = () if is_whole or not self.folder else (f"in {self.folder}",)
         panel = Panel(shown, "Record and save", facts, error=self.refusal or None, hint=_HINT, counted=False)
-        return replace(over, panel=panel, game=None, spots=(), handles=())
+        return replace(over, panel=panel, tools=None, game=None, spots=(), handles=())
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""

@@ -89,7 +89,8 @@ def starting(state: State) -> State:
         kept["look"] = replace(state.look, unit=before.unit, chart=before.chart)
     if sketch:
         return State(sketch.before, clock.at_rate(0, sketch.clock.rate), editing=sketch.editing, **kept)
-    return State(state.scene, clock, editing=state.editing, **kept)
+    modes = tuple(one for one in state.modes if one.edits_dimensions)
+    return State(state.scene, clock, editing=state.editing, modes=modes, **kept)
 
 
 def resumed(state: State) -> Iterator[Action]:
@@ -106,7 +107,7 @@ def resumed(state: State) -> Iterator[Action]:
         yield Action("slide", layers.lifted)
     if state.building:
         yield Action("draft", stored_text(state.building))
-        if state.editing.open:
+        if state.edits_dimensions:
             yield from (Action("numbers"), Action("choose", state.editing.chosen))
     if state.posing:
         yield from _resumed_poses(state.posing)

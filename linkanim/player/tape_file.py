@@ -23,6 +23,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import is_taped
 from linkanim.player.building import restored_sheet
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.edits import Dimensions
 from linkanim.player.state import Edited, Editing, Game, State
 from linkanim.player.tape import Tape
 from linkanim.scenes import names
@@ -81,10 +82,12 @@ def to_document(tape: Tape) -> dict[str, Any]:
     """Return the tape as JSON's own values."""
     state = tape.start
     clock = state.clock.go(state.frame, state.phase)
+    start = _written(_CLOCK, clock) | _written(_state(len(state.shelf)), state)
+    start["editing"]["open"] = state.edits_dimensions
     return {
         _MARK: VERSION,
         "scene": _SCENE.write(state.scene),
-        "start": _written(_CLOCK, clock) | _written(_state(len(state.shelf)), state),
+        "start": start,
         "shelf": _SHELF.write(state.shelf),
         "size": list(tape.size),
         "frames": tape.frames,
@@ -110,7 +113,9 @@ def _start(top: Section) -> State:
     start, scene = top.table("start"), _scene(top, "scene")
     shelf = _SHELF.read(top, "shelf") or (scene,)
     clock = Clock(scene.linkage.drive.speed, **_read(_CLOCK, start))
-    return State(scene, clock, shelf, **_read(_state(len(shelf)), start))
+    edited = start.table("editing")
+    modes = (Dimensions(),) if "open" in edited and edited.flag("open") else ()
+    return State(scene, clock, shelf, modes=modes, **_read(_state(len(shelf)), start))
 
 
 def _read(entries: Mapping[str, TapeValue], part: Section) -> dict[str, Any]:
@@ -216,7 +221,6 @@ _ORIGINAL = TapeValue(
 _EDITING = _table(
     Editing,
     {
-        "open": _FLAG,
         "chosen": _whole(0, 10_000),
         "typed": TapeValue(lambda part, key: part.text(key)[:40]),
         "drafts": _list(TapeValue(_draft, lambda draft: [draft[1], *draft[0]])),

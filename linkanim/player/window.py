@@ -19,17 +19,15 @@ import pygame
 from pygame.event import Event
 
 from linkanim import intake
-from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import OwnFile
+from linkanim.picture.overlay import Hover, OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
 from linkanim.player import files, modes, screen, taking
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, leave, settled
 from linkanim.player.building import left, written
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.commands import tool_asks
 from linkanim.player.desktop import reduces_motion
 from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
@@ -39,9 +37,9 @@ from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
-from linkanim.player.shown import Hover, lasting, overlay
+from linkanim.player.shown import lasting, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import BuildSheet, Game, State, Take, begin, recovered, report
+from linkanim.player.state import Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
 from linkanim.scenes.files import path_of
@@ -288,31 +286,6 @@ class Window:
         if request:
             self._following.ask(request)
 
-    def _aim(self, way: Value) -> Iterator[Action]:
-        """Yield what an arrow means on a sheet: the cursor moves."""
-        if self._sheet and isinstance(way, tuple):
-            yield Action("cursor", self.screen.aimed(self._sheet.cursor, way))
-
-    def _enter(self, twice: Value) -> Iterator[Action]:
-        """Yield what Enter means on a sheet: a number is taken, or the hand goes down or up at the cursor."""
-        sheet = self._sheet
-        if sheet is None:
-            return
-        if sheet.building.typed:
-            yield Action("take_number")
-        elif sheet.grip:
-            yield Action("hand_up")
-        elif sheet.cursor:
-            at = self.screen.pixel(*sheet.cursor)
-            click = Action("hand_down", self.screen.handed(*at, 1.0)), Action("hand_up")
-            on_paper = self.screen.sheet_at(*at) == "paper"
-            yield from 2 * click if twice else click if on_paper else click[:1]
-
-    @property
-    def _sheet(self) -> BuildSheet | None:
-        """The open sheet, once it has been shown."""
-        return self.state.building if self.screen.state.building else None
-
     def _of_the_tape(self) -> Iterator[Action]:
         """Yield the tape's actions at this frame, without effects on the outside."""
         if self._tape:
@@ -359,7 +332,7 @@ class Window:
 
     def _over_sheet(self) -> Hover | None:
         """Return what is under the mouse of an open sheet, or of the tools beside the list of dimensions."""
-        has_tools = all(one and (one.building or one.editing.open) for one in (self._good, self.state))
+        has_tools = all(one and one.top and one.top.has_tools for one in (self._good, self.state))
         at = self._mouse.over_sheet(self.screen) if has_tools else None
         return self.screen.hover(*at) if at else None
 
@@ -576,17 +549,9 @@ class Window:
         return (bind.action,) if bind else ()
 
 
-def _of_tool(name: str) -> Callable[[Window, Value], Iterator[Action]]:
-    """Return the resolver of a tool's key: beside the list of dimensions alone it opens the sheet first."""
-    return lambda window, value: iter(tool_asks(window.state, Action(name, value)))
-
-
 MEANINGS: Mapping[str, Callable[[Window, Value], Iterable[Action]]] = {
     "back": Window._back,
     **modes.MEANINGS,
-    "aim": Window._aim,
-    "enter": Window._enter,
-    **{name: _of_tool(name) for name in {tool.action for tool in TOOLS}},
 }
 """Actions of the key table that depend on what is visible or in the folder, and what resolves them."""
 

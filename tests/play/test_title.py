@@ -219,11 +219,11 @@ def test_a_mouse_that_moves_before_the_first_picture_does_no_harm() -> None:
 def test_the_door_to_building_leads_to_a_sheet_that_was_open_before() -> None:
     state = carried(replace(begin(load("press")), games=game_of), Action("build_on"))
     assert state.sheet
-    assert state.sheet.open
+    assert state.building
     state = carried(carried(state, Action("play", "title door=build")), Action("next"))
     assert state.game is None
     assert state.sheet
-    assert state.sheet.open
+    assert state.building
 
 
 def test_the_door_draw_a_path_takes_the_pencil_by_click_and_by_w() -> None:

@@ -371,7 +371,7 @@ def played(step: int) -> tuple[State, bytes]:
 @pytest.mark.slow
 def test_state_and_picture_are_the_same_whatever_the_rate_of_frames() -> None:
     state, pixels = played(1)
-    assert state.editing.open is False
+    assert state.edits_dimensions is False
     assert (state.scene.name, state.look.zoom > 1, bool(state.look.chart)) == ("drag-link", False, True)
     for step in (2, 19):
         assert played(step) == (state, pixels)

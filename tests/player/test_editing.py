@@ -212,9 +212,9 @@ def test_a_new_value_takes_the_place_of_a_draft(crank: State) -> None:
 @pytest.mark.parametrize("key", ["back", "undo"])
 def test_values_begun_are_let_go_of_one_after_the_other(crank: State, key: str) -> None:
     state = after(crank, Action("type", "9"), Action("pass_on", 1), Action("type", "8"), key)
-    assert (state.editing.typed, len(state.editing.drafts), state.editing.open) == ("", 1, True)
+    assert (state.editing.typed, len(state.editing.drafts), state.edits_dimensions) == ("", 1, True)
     state = after(state, key)
-    assert (state.editing.begun, state.editing.open) == (False, True)
+    assert (state.editing.begun, state.edits_dimensions) == (False, True)
 
 
 def test_passing_on_without_a_value_only_chooses(crank: State) -> None:
@@ -302,9 +302,9 @@ def test_escape_closes_what_lies_on_top_first(crank: State) -> None:
     state = after(crank, Action("type", "7"), "help", "back")
     assert (state.help, state.editing.typed) == (False, "7")
     state = after(state, "back")
-    assert (state.editing.open, state.editing.typed) == (True, "")
+    assert (state.edits_dimensions, state.editing.typed) == (True, "")
     state = after(state, "back")
-    assert (state.editing.open, state.effects) == (False, ())
+    assert (state.edits_dimensions, state.effects) == (False, ())
 
 
 def test_ctrl_b_in_the_list_lets_a_swing_come_back_on_the_same_closure() -> None:
@@ -332,7 +332,7 @@ def test_another_mechanism_begins_unedited_and_the_first_is_as_it_was_left(crank
     assert after(there, Action("mechanism", -1)).editing == edited.editing
     assert after(there, Action("mechanism", -1), "undo").scene == crank.scene
     state = after(crank, Action("nudge", 1), Action("mechanism", 1))
-    assert state.editing.open
+    assert state.edits_dimensions
     assert not state.editing.changed
 
 

@@ -39,7 +39,7 @@ def find(player: Player, words: str) -> None:
 
 def at_row(state: State, label: str) -> bool:
     row = dimensions(state.scene)[state.editing.chosen]
-    return state.editing.open and row.label == label
+    return state.edits_dimensions and row.label == label
 
 
 # Words as a lecturer or a student types them, and what has happened after Enter.

@@ -174,7 +174,7 @@ def test_esc_goes_back_to_the_linkage(shown: State) -> None:
 def test_a_linkage_on_a_sheet_is_kept_for_its_layers() -> None:
     state = after(begin(load("crank-rocker")), "build_on", "layers")
     assert state.sheet is not None
-    assert not state.sheet.open
+    assert not state.building
     assert state.of(Layering)
     assert the(state, Layering).scene is state.scene
 

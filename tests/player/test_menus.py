@@ -161,7 +161,7 @@ THINGS: dict[str, tuple[str, str, str, Callable[[State], bool]]] = {
         *("crank-rocker", "joint B", "make it the drive"),
         lambda state: state.scene.linkage.drive.joint == "B",
     ),
-    "its length": ("crank-rocker", "joint A", "edit its length", lambda state: state.editing.open),
+    "its length": ("crank-rocker", "joint A", "edit its length", lambda state: state.edits_dimensions),
     "a link": (
         *("crank-rocker", "link coupler", "chart its angular velocity"),
         lambda state: state.look.chart == "coupler.angular_velocity",

@@ -190,7 +190,7 @@ def test_nothing_of_a_mechanism_is_lost_on_the_way_to_the_sheet_and_back(name: s
     assert state.building.building.made.scene is state.scene
     left = after(state, "build")
     assert left.sheet
-    assert not left.sheet.open
+    assert not left.building
     assert (left.scene.linkage, left.scene.trace) == (scene.linkage, scene.trace)
 
 

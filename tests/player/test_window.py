@@ -59,7 +59,7 @@ THERE_AND_BACK: dict[str, tuple[Key, Key, Callable[[State], object]]] = {
     "B": (plain("b"), plain("b"), lambda s: s.scene.linkage),
     "Shift+B": (shifted("b"), shifted("b"), lambda s: s.look.ghost),
     "D": (plain("d"), plain("d"), lambda s: s.clock.direction),
-    "E": (plain("e"), plain("e"), lambda s: s.editing.open),
+    "E": (plain("e"), plain("e"), lambda s: s.edits_dimensions),
     "H": (plain("h"), plain("h"), lambda s: s.help),
     "F1": (bare(pygame.K_F1), bare(pygame.K_F1), lambda s: s.help),
     "?": ((pygame.K_SLASH, SHIFT, "?"), bare(pygame.K_ESCAPE), lambda s: s.help),
@@ -369,7 +369,7 @@ def test_keys_of_one_frame_are_taken_one_after_the_other(player: Player) -> None
     for letter in "e7":
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter))
     player.tick()
-    assert (player.state.editing.open, player.state.editing.typed) == (True, "7")
+    assert (player.state.edits_dimensions, player.state.editing.typed) == (True, "7")
 
 
 def test_a_key_is_carried_out_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
