@@ -154,5 +154,5 @@ def test_the_page_is_written_and_opened_where_there_is_a_screen(
 
 
 def test_the_page_is_no_burden() -> None:
-    assert len(PAGE) < 700_000
+    assert len(PAGE) < 750_000
     assert sum(path.stat().st_size for path in (manual.FOLDER / "pictures").iterdir()) < 300_000

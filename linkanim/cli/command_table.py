@@ -55,7 +55,7 @@ def build(only: str | None = None) -> Parser:
     """
     parser = Parser(
         prog="linkanim",
-        usage="linkanim [SCENE | FILE.toml | FILE.tape.json]\n       linkanim COMMAND ...",
+        usage="linkanim [SCENE | FILE.toml | LESSON.toml | FILE.tape.json]\n       linkanim COMMAND ...",
         description="Play planar linkages: see them run, solve them exactly, record loops without a seam.",
         before=_keys,
         examples=(
@@ -171,6 +171,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "open the window (the default command)",
         "linkanim play press",
         "linkanim play my-linkage.toml --theme dark",
+        "linkanim play lesson.toml",
     ),
     "new": (
         "open the window with an empty sheet, to build a linkage on",

@@ -525,7 +525,7 @@ def _limits(sizes: str, room: Argument = _BOX) -> tuple[Argument, ...]:
 
 ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "play": (
-        _scene(", or of a tape", nargs="?"),
+        _scene(", of a tape or of a lesson", nargs="?"),
         _flag("--attract", "run for a stand: full screen, and back to the title when left alone"),
         _WINDOW_SIZE,
         _value(
@@ -555,7 +555,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _takes("--theme", choices=("light", "dark"), default="light", help="the colours (default: light)"),
     ),
     "record": (
-        _scene(", or of a tape"),
+        _scene(", of a tape or of a lesson"),
         _takes("more", nargs="*", metavar="SCENE", help="further scenes, each on a slide of OUT.pptx"),
         _output(
             "write OUT.gif, .mp4, .webm, .webp, .apng, .mov, numbered .png, .pptx (slides) or .pdf (a "
@@ -578,6 +578,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _look("record"),
         _CONSTRUCTION,
         _flag("--noted", "note nearby limits and change points"),
+        _flag("--each", "record each step of a lesson into a file of its own, with its number"),
         _flag("--photo", "show the photograph of a tape on which something is built"),
         _flag("--no-clobber", "write over the file of -o only where linkanim wrote it and nobody changed it"),
         _flag("--progress", "show the progress even if stderr is not a terminal"),

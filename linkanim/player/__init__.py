@@ -19,6 +19,8 @@ From the ground up; a module imports from those before it only:
     building   two modes: the sheet, on which a linkage is built, and the list of dimensions on it
     listing    a mode: the list of quantities, or of commands
     finding    a mode: one field that finds anything
+    stored     what tapes and lessons have stored: a scene, a look
+    lesson     a lesson's steps and their file; a mode: the line for a caption
     shelving   a mode: the shelf
     pencil     a mode: a stroke is drawn, and linkages that follow it come
     posing     a mode: poses of a body are set down, and linkages that pass them come

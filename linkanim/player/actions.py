@@ -240,6 +240,8 @@ def back(state: State, _: None) -> State:
         return replace(state, place_typed="", chip=None)
     if state.constructed:
         return replace(state, construction=None)
+    if state.lesson:
+        return replace(state, lesson=None)
     if state.from_title and state.games:
         return with_effect(state, "begin", "title")
     return with_toast(state, "Q quits")
@@ -292,7 +294,11 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 # A game replaces the state while it runs; the state before stands beneath, and comes back.
 
-BESIDE = BESIDE_GAMES | {"take_toast", "take_into", "stir", "menu", "note", "hint", "pad", "close"}
+BESIDE = (
+    BESIDE_GAMES
+    | {"keep_step", "caption_step", "lesson_on"}
+    | {"take_toast", "take_into", "stir", "menu", "note", "hint", "pad", "close"}
+)
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 
 
@@ -501,8 +507,8 @@ def is_taped(action: Action) -> bool:
 
 Change = Callable[[State], State]
 
-_SHEETS = frozenset({"build", "sheet", "draft", "photo"})
-"""Actions that open a sheet, even out of a game."""
+_SHEETS = frozenset({"build", "sheet", "draft", "photo", "stage"})
+"""Actions that open a sheet, or show a step of a lesson, even out of a game."""
 _NOT_BY_HAND = frozenset({"note", "hint", "pad", "stir"})
 """Actions that no user asks for, and the one that only brings the bar of commands."""
 _LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}

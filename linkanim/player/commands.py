@@ -62,6 +62,11 @@ _CONSTRUCTED = {
     "pencil": BarEntry("done", Action("back"), 2),
 }
 """What stands in the place of other buttons while a construction is drawn."""
+_IN_A_LESSON = {
+    "edit": BarEntry("before", Action("lesson_on", -1), 3, leads=True),
+    "build": BarEntry("after", Action("lesson_on", 1), 1),
+}
+"""What stands in the place of other buttons in a lesson."""
 BUILD_ON_BAR = BarEntry("build", Action("build_on"), 12)
 """Beside the list of dimensions, the tools work on the linkage that is shown."""
 _HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
@@ -93,6 +98,8 @@ def pressed(state: State, number: int) -> tuple[Action, ...]:
 
 def _entries(state: State) -> tuple[BarEntry, ...]:
     """Return the commands on the bar."""
+    if state.lesson and state.mode in ("play", "paused"):
+        return tuple(_IN_A_LESSON.get(one.icon, one) for one in LISTED_BAR)
     if state.constructed and state.mode in ("play", "paused"):
         return tuple(_CONSTRUCTED.get(one.icon, one) for one in LISTED_BAR)
     return state.top.bar if state.top else _HANDLES[state.mode]

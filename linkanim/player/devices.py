@@ -629,6 +629,9 @@ class Outside(Protocol):
     def scene_files(self) -> tuple[OwnFile, ...]:
         """Return the scene files in the current folder."""
 
+    def lesson_step(self, further: int) -> Action:
+        """Return the action that shows the lesson's step so many steps further on, or a note."""
+
     def proposed_places(self) -> str:
         """Return the current folder and places in it to write to, one a line."""
 

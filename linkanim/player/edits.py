@@ -148,6 +148,15 @@ def put_on(state: State, place: int) -> State:
     return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
 
 
+def put_scene(state: State, scene: Scene, place: int, phase: float) -> State:
+    """Put a scene on as it is, at a place of the shelf whose edits are dropped; its clock is the caller's."""
+    state = drop(state, None)
+    others = tuple(one for one in _kept_edits(state) if one.place != place)
+    bare = replace(state.unlisted.without(Sketch), held=None, glide=None, turned=None, faded=state.frame)
+    bare = replace(bare, arrived=state.frame, editing=Editing(), kept=others)
+    return replace(bare, scene=proved(scene, phase), place=place)
+
+
 def _kept_edits(state: State) -> tuple[Edited, ...]:
     """Return the edited scenes of all places; the present one's bare, and without its typed values."""
     own = replace(state.editing, typed="", drafts=(), refusal=None, warned=False)

@@ -124,7 +124,7 @@ class SceneFile:
     """A scene file, and how it was when it was last looked at."""
 
     def __init__(self, path: Path) -> None:
-        self._path = path
+        self.path = path
         self._seen = self._state()
 
     def news(self) -> list[str]:
@@ -132,7 +132,7 @@ class SceneFile:
         before, self._seen = self._seen, self._state()
         if before == self._seen:
             return []
-        name = intake.named(self._path.name)
+        name = intake.named(self.path.name)
         if self._seen is None:
             return [f"{name} is gone; the linkage runs on, and Ctrl+Shift+S writes it as a new file"]
         return [f"{name} has changed; F5 loads it"]
@@ -140,12 +140,12 @@ class SceneFile:
     def load(self) -> Scene:
         """Read the file as it is now; errors as `scenes.load`."""
         self._seen = self._state()
-        return load(self._path)
+        return load(self.path)
 
     def _state(self) -> tuple[int, int, int] | None:
         """Return numbers that change when the file is written anew; None where there is no file."""
         with suppress(OSError):
-            found = self._path.stat()
+            found = self.path.stat()
             return found.st_mtime_ns, found.st_size, found.st_ino
         return None
 

@@ -165,6 +165,10 @@ _BUILD = on("f2", "build") + on("shift+f2", "build_on")
 _DIAL = both(",", ".", "dial_on")
 _STEPS = both("shift+f7", "f7", "construct", held=False)
 _MAKE = on("f6", "layers") + on("shift+f6", "make")
+_LESSON = (
+    *(on("f8", "keep_step") + on("shift+f8", "caption_step")),
+    *both("pageup", "pagedown", "lesson_on", held=False),
+)
 _PATH = on("w", "pencil") + on("shift+w", "own_trace")
 
 KEYS: Table = {
@@ -239,11 +243,14 @@ KEYS: Table = {
         KeyRow("Shift+G", "hand on: one page that moves", on("shift+g", "share")),
         KeyRow("F6 (Shift: write them)", "its parts in layers, to be made", _MAKE),
         KeyRow(
-            "Ctrl+S, O",
-            "save (Shift: save as); open",
-            on("ctrl+s", "save") + on("ctrl+shift+s", "save_as") + on("ctrl+o", "files_here"),
+            "Ctrl+S, O; F5",
+            "save, open, load again",
+            on("ctrl+s", "save")
+            + on("ctrl+shift+s", "save_as")
+            + on("ctrl+o", "files_here")
+            + on("f5", "reload"),
         ),
-        KeyRow("F5", "load the scene's file again", on("f5", "reload")),
+        KeyRow("F8, PgUp, PgDn", "a lesson: keep a step, show it", _LESSON),
     ),
 }
 """Every key of the window, by subject, in the order in which the help shows them."""
@@ -273,6 +280,20 @@ LIST_KEYS = (
 )
 """The meaning of keys in the list of dimensions, of a scene or on a sheet."""
 _IN_A_MODE: Table = {
+    "in a lesson": (
+        KeyRow(
+            "← →, PgUp, PgDn",
+            "the step before, the next; so does a presenter's remote",
+            both("left", "right", "lesson_on", held=False)
+            + both("pageup", "pagedown", "lesson_on", held=False),
+        ),
+        KeyRow(
+            "Shift+← →",
+            "ten steps of the crank; all else is as without a lesson",
+            both("shift+left", "shift+right", "step", 10),
+        ),
+        KeyRow("Esc", "leave the lesson; PgDn goes on with it", on("escape", "back")),
+    ),
     "in a game": (
         KeyRow("1–9, click", "choose an answer or a door", digits("option")),
         KeyRow("Enter, Space", "go on", on("return kp_enter space", "next")),
@@ -353,6 +374,7 @@ RUNNING = ModeKeys("play", typed=_ANGLE)
 OF_MODES: tuple[ModeKeys, ...] = (
     RUNNING,
     ModeKeys("paused", typed=_ANGLE),
+    ModeKeys("lesson", {"in a lesson": _IN_A_MODE["in a lesson"]}, _ANGLE),
     ModeKeys("game", {"in a game": _IN_A_MODE["in a game"]}, names={Action("back"): "out of it"}),
 )
 
@@ -489,6 +511,10 @@ _APART: Mapping[Action, str] = {
     Action("take_turn", -1): "the value before",
     Action("take_turn", 1): "the next value",
     Action("take_start"): "record",
+    Action("keep_step"): "keep it as a step of the lesson",
+    Action("caption_step"): "keep it as a step of the lesson, with a caption",
+    Action("lesson_on", -1): "the step of the lesson before",
+    Action("lesson_on", 1): "the next step of the lesson",
     Action("lift", 1): "lift the layers farther off each other",
     Action("lift", -1): "lay the layers nearer together",
     Action("further", 1): "the next one",
@@ -508,6 +534,7 @@ _APART: Mapping[Action, str] = {
     Action("save"): "save the scene",
     Action("save_as"): "save under another name",
     Action("files_here"): "open a scene file of this folder",
+    Action("reload"): "load the scene's file again",
     Action("unbuild"): "undo",
     Action("rebuild"): "redo",
     Action("number", -1): "the value above it",

@@ -8,6 +8,7 @@ from linkanim.player.building import OpenSheet, SheetNumbers
 from linkanim.player.edits import Dimensions
 from linkanim.player.finding import Finder
 from linkanim.player.keys import KEYS, OF_MODES, PAD_KEYS, ModeKeys
+from linkanim.player.lesson import CaptionLine
 from linkanim.player.listing import Listing
 from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
@@ -29,6 +30,7 @@ MODES: tuple[type[Mode], ...] = (
     Layering,
     Naming,
     TakeDialog,
+    CaptionLine,
 )
 """The modes that can be open over the picture."""
 KEYS_OF: Mapping[str, ModeKeys] = {one.name: one for one in (*OF_MODES, *(mode.keys for mode in MODES))}

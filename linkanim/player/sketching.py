@@ -40,7 +40,7 @@ def keep(state: State, _: None) -> State:
 
 
 _KEEPS = frozenset({"edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers"})
-_LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
+_LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns", "stage"})
 """Actions that keep the answer first, and those that first go back to the scene before."""
 REFUSED = frozenset({"unit", "undo", "redo"})
 """Actions that are refused meanwhile: points keep their unit, and edits are the scene's."""

@@ -867,6 +867,7 @@ class State:
     reduced_motion: bool = False
     home: Box | None = None
     also: tuple[complex, ...] = ()
+    lesson: tuple[int, int] | None = None
     stirred: int | None = None
     touched: int = 0
     effects: tuple[Action, ...] = ()
@@ -910,7 +911,8 @@ class State:
     @property
     def keys(self) -> ModeKeys:
         """The keys that have a meaning of their own now."""
-        return self.top.keys if self.top else next(one for one in OF_MODES if one.name == self.mode)
+        name = "lesson" if self.lesson and self.mode in ("play", "paused") else self.mode
+        return self.top.keys if self.top else next(one for one in OF_MODES if one.name == name)
 
     @property
     def mode(self) -> str:

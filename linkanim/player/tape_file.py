@@ -18,7 +18,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import NamedTuple
 from linkanim.intake import Intake, Section, refuse_controls
 from linkanim.manifest import Output
-from linkanim.picture.look import TOGGLES, Look
+from linkanim.player import stored
 from linkanim.player.action import Action
 from linkanim.player.actions import is_taped
 from linkanim.player.building import restored_sheet
@@ -28,7 +28,6 @@ from linkanim.player.state import Edited, Editing, Game, State
 from linkanim.player.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.form import Key
-from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
@@ -110,7 +109,7 @@ def _size(top: Section) -> tuple[int, int]:
 
 
 def _start(top: Section) -> State:
-    start, scene = top.table("start"), _scene(top, "scene")
+    start, scene = top.table("start"), stored.scene(top, "scene")
     shelf = _SHELF.read(top, "shelf") or (scene,)
     clock = Clock(scene.linkage.drive.speed, **_read(_CLOCK, start))
     edited = start.table("editing")
@@ -148,53 +147,7 @@ def _whole(low: int, high: int) -> TapeValue:
 
 def _entry(entries: Section, key: str) -> Scene | str:
     entry = entries.need(key)
-    return str(entry) if entry in names() else _scene(entries, key)
-
-
-def _scene(top: Section, key: str) -> Scene:
-    part = top.table(key)
-    document = part.need("document")
-    if not isinstance(document, dict):
-        raise part.error("document", "must be a scene file's table")
-    return scene_from(document, name=_file_name(part), where=part.where)
-
-
-def _file_name(part: Section) -> str:
-    """Return a scene's name, by which files are named; BadInput for one that leads out of their folder."""
-    name = part.text("name")
-    if not 1 <= len(name) <= 200 or not name.isprintable() or name.startswith(".") or set(name) & set("/\\:"):
-        raise part.error("name", "must be a name without a folder; record the tape again")
-    return name
-
-
-def _look(start: Section, key: str) -> Look:
-    """Return the look; a field that is newer than the tape has the default of `Look`."""
-    part = start.table(key)
-    pan = part.listed("pan", 2)
-    across, down = (pan.number(side) for side in pan.values)
-    return Look(
-        **{name: _step(part, name) for name in TOGGLES if name in part},
-        zoom=min(max(part.number("zoom"), 0.01), 100.0),
-        pan=(across, down),
-    )
-
-
-def _step(part: Section, name: str) -> Any:
-    """Return the value of a field of the look."""
-    steps, usual = TOGGLES[name].steps, getattr(Look(), name)
-    match usual:
-        case bool():
-            return part.flag(name)
-        case int():
-            return part.whole(name, steps[0], steps[-1])
-        case frozenset():
-            members = part.listed(name)
-            return frozenset(members.choice(key, steps) for key in members.values)
-        case str():
-            return part.choice(name, steps)
-    if part.need(name) is None:
-        return None
-    return part.choice(name, steps) if steps else part.text(name)
+    return str(entry) if entry in names() else stored.scene(entries, key)
 
 
 def _draft(entries: Section, key: str) -> tuple[Key, str]:
@@ -206,16 +159,16 @@ def _draft(entries: Section, key: str) -> tuple[Key, str]:
 
 _QUICK = frozenset({"pen_to", "zoom", "pan", "scrub", "step", "speed"})
 """Actions of which one frame may have many: the mouse may move several times while the window waits."""
-_MOST = {"draft": 10, "play": 1_000}
+_MOST = {"draft": 10, "play": 1_000, "stage": 300}
 """The most of these actions in a whole tape; a tape that begins on a sheet has one draft."""
 _LATER = ("kept", "drafts")
 """Keys that older tapes lack."""
 _FLAG = TapeValue(Section.flag)
-_SCENE = TapeValue(_scene, lambda scene: {"name": scene.name, "document": scene.document})
+_SCENE = TapeValue(stored.scene, lambda scene: {"name": scene.name, "document": scene.document})
 _SCENES = _list(_SCENE)
 _SHELF = _list(TapeValue(_entry, lambda entry: entry if isinstance(entry, str) else _SCENE.write(entry)))
 _ORIGINAL = TapeValue(
-    lambda part, key: _scene(part, key) if part.values.get(key) else None,
+    lambda part, key: stored.scene(part, key) if part.values.get(key) else None,
     lambda scene: scene and _SCENE.write(scene),
 )
 _EDITING = _table(
@@ -244,7 +197,10 @@ def _state(places: int) -> Mapping[str, TapeValue]:
     return {
         "place": place,
         "help": _FLAG,
-        "look": TapeValue(_look, lambda look: {**vars(look), "vectors": sorted(look.vectors)}),
+        "look": TapeValue(
+            lambda part, key: stored.look(part.table(key)),
+            lambda look: {**vars(look), "vectors": sorted(look.vectors)},
+        ),
         "editing": _EDITING,
         "kept": _list(_table(Edited, {"place": place, "scene": _SCENE, "editing": _EDITING})),
     }
@@ -276,7 +232,11 @@ def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
             many = f"are {count:,} at frame {frame}, more than {MOST_AT_ONCE}"
             raise top.error("actions", f"{many}; record the tape again")
     names = Counter(action.name for _, action in actions)
-    for name, what in (("draft", "drafts"), ("play", "beginnings of a game")):
+    for name, what in (
+        ("draft", "drafts"),
+        ("play", "beginnings of a game"),
+        ("stage", "steps of a lesson"),
+    ):
         if (count := names[name]) > (most := _MOST[name]):
             raise top.error("actions", f"have {count:,} {what}, more than {most:,}; record the tape again")
 

@@ -10,7 +10,7 @@ import gc
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
@@ -33,6 +33,7 @@ from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard,
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
 from linkanim.player.keys import bind_of
+from linkanim.player.lesson import Lesson
 from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
 from linkanim.player.pointing import Pointed, PointedThing
@@ -42,7 +43,7 @@ from linkanim.player.sound import Speaker, cues
 from linkanim.player.state import Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
-from linkanim.scenes.files import path_of
+from linkanim.scenes.files import is_lesson, path_of
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -96,6 +97,7 @@ class Window:
         drafts: DraftFile | None = None,
         *,
         offer: bool = True,
+        lesson: Lesson | None = None,
     ) -> None:
         self.state = state
         self._file, self._drafts, self._saved = file, drafts, SavedScenes()
@@ -126,6 +128,7 @@ class Window:
         self._reported: set[str] = set()
         self._unkept: str | None = None
         self._warned: str | None = None
+        self._lesson = lesson or Lesson()
         if offer:
             self._offer()
         elif drafts and drafts.waits():
@@ -237,6 +240,10 @@ class Window:
             return str(error)
         self._last_place = str(Path(file).parent)
         return ""
+
+    def lesson_step(self, further: int) -> Action:
+        """Return the action that shows the lesson's step so many steps further on, or a note."""
+        return self._lesson.on(further)
 
     def _followed(self) -> Iterator[Action]:
         """Yield the actions with which the search for linkages has replied."""
@@ -392,6 +399,8 @@ class Window:
                 self._noted(self._saved.write(self.state.scene, Path(str(effect.value))))
             case "save_new":
                 self._save_new(str(effect.value))
+            case "keep_step":
+                self._notes.append(self._lesson.keep(self.state, self._own_files, str(effect.value)))
             case "open":
                 self._open_file(Path(str(effect.value)))
             case "reload":
@@ -410,6 +419,16 @@ class Window:
                 self.fill()
             case "quit":
                 self._quit()
+
+    @property
+    def _own_files(self) -> dict[str, Scene]:
+        """The scene files of this window that may hold the present scene, and what they hold."""
+        files = (self._file.path if self._file else None, self.state.saved_as)
+        found: dict[str, Scene] = {}
+        for file in files:
+            with suppress(LinkanimError):
+                found |= {str(file): load(str(file))} if file else {}
+        return found
 
     def _save_new(self, name: str) -> None:
         """Write the scene under a name; where that is impossible, ask again with the reason."""
@@ -468,6 +487,10 @@ class Window:
             raise BadInput(
                 "a recording holds only the scenes that it began with; stop it, then open the file"
             )
+        if is_lesson(path):
+            self._lesson = Lesson(path)
+            self.state = carried(self.state, self._lesson.on(1))
+            return
         if path.suffix.lower() != ".toml":
             raise BadInput(f"{intake.named(path)}: is no scene file, whose name ends in .toml")
         scene = load(path)
@@ -578,7 +601,7 @@ def run(
     photo: Path | None = None,
     reduced_motion: bool | None = None,
 ) -> int:
-    """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
+    """Open the window on a scene, a scene file, a lesson or a tape, and return 0 when it is closed.
 
     Without a scene it opens on the title, where a `keeper` has games. With `attract` it fills the screen, Esc
     does not leave that, and a mechanism that runs gives way to the title when left alone for a minute.
@@ -590,7 +613,8 @@ def run(
     asks.
     """
     tape = _tape(scene, keeper)
-    state = tape.begun if tape else begin(scene, look=look)
+    lesson = Lesson(Path(scene)) if isinstance(scene, str | os.PathLike) and is_lesson(scene) else None
+    state = tape.begun if tape else begin(lesson.steps[0].scene if lesson else scene, look=look)
     reduced = reduces_motion() if reduced_motion is None else reduced_motion
     state = replace(state, games=keeper.game_of if keeper else None, reduced_motion=reduced)
     opening = game or ("title" if scene is None else None)
@@ -601,7 +625,10 @@ def run(
     with screen.opened(size) as connection:
         state = replace(state, from_title=attract or scene is None, kiosk=attract)
         kept = DraftFile(drafts) if drafts and not tape else None
-        window = Window(state, tape, None if tape else _file(scene), keeper, kept, offer=photo is None)
+        file = None if tape or lesson else _file(scene)
+        window = Window(state, tape, file, keeper, kept, offer=photo is None, lesson=lesson)
+        if lesson:
+            window.state = carried(window.state, lesson.on(1))
         if sheet:
             window.open_sheet()
         if layers is not None:

@@ -8,5 +8,6 @@ From the ground up; a module imports from those before it only:
     processes    frames drawn by several processes, in their order
     recording    drawn frames to a file that loops; `record`
     tape_frames  a tape's states as frames; `record_tape`
+    lessons      a lesson as one file, or as one for each step
     gallery      every scene as a small GIF
 """

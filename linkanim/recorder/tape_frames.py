@@ -114,10 +114,23 @@ def record_tape(
     The loop starts at the phase at which the tape does. Errors as `record`, and `BadInput` for a
     file that is not a tape of this version.
     """
-    _, form = checked_path(path)
+    checked_path(path)
     if size:
         refuse_size(size)
-    played = tape_file.read(Path(tape), game_of)
+    return record_played(tape_file.read(Path(tape), game_of), path, size, fps, progress, photo=photo)
+
+
+def record_played(
+    played: Tape,
+    path: Target,
+    size: tuple[int, int] | None = None,
+    fps: float = 25.0,
+    progress: Progress | None = None,
+    *,
+    photo: bool = False,
+) -> Recording:
+    """Record what a tape does, as `record_tape`."""
+    _, form = checked_path(path)
     size = size or _shape(played.size)
     state = played.start
     if played.is_loop and not state.listed:

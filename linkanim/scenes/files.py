@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
@@ -124,3 +125,14 @@ def _catalogue_text(name: str) -> str:
 def _text(path: str) -> str:
     """Return the text of a file of the package."""
     return (Path(__file__).parent / path).read_text(encoding="utf-8")
+
+
+def is_lesson(path: str | os.PathLike[str]) -> bool:
+    """Return whether a file is a lesson, and no scene: it has steps."""
+    if not os.fspath(path).lower().endswith(".toml"):
+        return False
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return False
+    return re.search(r"(?m)^\s*\[\[\s*step\s*\]\]|^\s*step\s*=", text) is not None

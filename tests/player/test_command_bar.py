@@ -23,6 +23,7 @@ from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
 from linkanim.player.framing import Framing
 from linkanim.player.keys import GROUPS, commands
+from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
@@ -52,6 +53,7 @@ ENTERED: dict[str, tuple[Action | str, ...]] = {
     "edit": ("edit",),
     "list": ("list",),
     "find": ("find",),
+    "lesson": (Action("stage", LessonStep(load("crank-rocker")).text(1, 2)),),
     "shelf": ("shelf",),
     "pencil": ("pencil",),
     "poses": ("poses",),
@@ -66,7 +68,7 @@ in_every_mode = pytest.mark.parametrize("mode", ENTERED)
 def entered(mode: str) -> State:
     games = replace(begin(load("crank-rocker")), games=game_of)
     state = after(games, *ENTERED[mode], "stir")
-    assert state.mode == mode
+    assert state.keys.name == mode
     return state
 
 
@@ -109,7 +111,7 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: str) -> None:
 
 
 def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
-    assert {*ENTERED, "name", "record"} == {*KEYS_OF}
+    assert {*ENTERED, "name", "record", "caption"} == {*KEYS_OF}
 
 
 def rows(state: State) -> list[str]:

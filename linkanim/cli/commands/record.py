@@ -1,15 +1,16 @@
-"""`linkanim record`: a scene's true period, or a tape, as a file; several scenes as slides."""
+"""`linkanim record`: a scene's true period, a tape or a lesson, as a file; several scenes as slides."""
 
 from __future__ import annotations
 
 import shutil
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from linkanim.cli import main
 from linkanim.cli.alternative import alternative, plain
@@ -23,12 +24,13 @@ from linkanim.errors import BadInput
 from linkanim.letters import PDF, PIXELS
 from linkanim.manifest import Output, checked_output
 from linkanim.picture.layout import SMALL, layout
-from linkanim.picture.look import TOGGLES
+from linkanim.picture.look import TOGGLES, Look
 from linkanim.picture.purpose import PURPOSES
 from linkanim.picture.quantities import speed_words
 from linkanim.recorder.plan import Clip, make_plan, refuse_size
 from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
 from linkanim.scenes import load
+from linkanim.scenes.files import is_lesson
 from linkanim.scenes.scene import Scene
 
 _OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", "construction")
@@ -44,6 +46,11 @@ _SLOWER = (20.0, 12.5, 10.0)
 def run(options: Namespace) -> None:
     """Record what was asked; print the file's path on stdout, and a summary on stderr."""
     preset = PRESETS.get(options.preset, DEFAULT)
+    if is_lesson(options.scene):
+        _record_lesson(options, preset)
+        return
+    if options.each:
+        raise BadInput("--each is for a lesson, whose steps get a file each")
     usual = f"{_stem(options.scene)}{preset.suffix}"
     suffixes = (*SUFFIXES, _DECK, _VECTORS)
     target = checked_output(options.output, usual, suffixes, inputs_of(options), ours=options.no_clobber)
@@ -160,6 +167,48 @@ def _is_tape(options: Namespace) -> bool:
     return bool(options.scene.lower().endswith(".json"))
 
 
+def _record_lesson(options: Namespace, preset: Preset) -> None:
+    """Record a lesson, in one file or in one for each step; print the paths."""
+    from linkanim.player.lesson import read
+    from linkanim.recorder.lessons import record_lesson, record_step
+
+    _refuse_settled(options, "a lesson", ("theme", "material"))
+    for name in ("more", "titles", "max_size", "alt", "photo"):
+        if getattr(options, name):
+            word = "a further scene" if name == "more" else f"--{name.replace('_', '-')}"
+            raise BadInput(f"{word} is not for a lesson; leave it out")
+    steps, usual = read(Path(options.scene)), f"{_stem(options.scene)}{preset.suffix}"
+    look = Look(theme=options.theme, material=options.material)
+    how: dict[str, Any] = {
+        "size": options.size or preset.size,
+        "fps": options.fps or preset.fps,
+        "look": look,
+    }
+    named = Path(options.output or usual)
+    files = (
+        [named.with_stem(f"{named.stem}-{n}") for n in range(1, len(steps) + 1)] if options.each else [named]
+    )
+    given = options.output is not None
+    targets = [
+        checked_output(
+            str(file) if given else None,
+            file.name,
+            SUFFIXES,
+            [options.scene],
+            ours=options.no_clobber,
+        )
+        for file in files
+    ]
+    for n, target in enumerate(targets):
+        with bar(shown=options.progress) as progress:
+            if options.each:
+                recording = record_step(steps[n], target, **how, progress=progress)
+            else:
+                recording = record_lesson(steps, target, **how, progress=progress)
+        print(recording.summary, file=sys.stderr)
+        print(recording.path)
+
+
 def letters_for(preset: Preset, size: tuple[int, int]) -> float:
     """Return how many times larger than usual letters are for a purpose: on a slide as its figures' are."""
     if not preset.projected:
@@ -213,16 +262,21 @@ def _construction(scene: Scene, options: Namespace) -> dict[str, object]:
 
 def _of_tape(options: Namespace) -> Callable[..., Recording]:
     """Return the function that records a tape; `BadInput` for an option that the tape itself settles."""
-    usual = parse(["record", options.scene])
-    for name in (*_OF_A_SCENE, *TOGGLES):
-        found = getattr(options, name, None)
-        if found != getattr(usual, name, None):
-            word = _word(name, found)
-            raise BadInput(f"{word} is for a scene; a tape keeps its own (--size, --fps and --for are free)")
+    _refuse_settled(options, "a tape")
     # It imports the player, building and the games, which a scene without a tape does not need.
     from linkanim.recorder.tape_frames import record_tape
 
     return partial(record_tape, options.scene, photo=options.photo)
+
+
+def _refuse_settled(options: Namespace, what: str, free: Collection[str] = ()) -> None:
+    """Refuse an option that a tape or a lesson settles itself."""
+    usual = parse(["record", options.scene])
+    for name in (*_OF_A_SCENE, *TOGGLES):
+        found = getattr(options, name, None)
+        if name not in free and found != getattr(usual, name, None):
+            word = _word(name, found)
+            raise BadInput(f"{word} is for a scene; {what} keeps its own (--size, --fps and --for are free)")
 
 
 def _word(name: str, found: object) -> str:
