@@ -688,6 +688,9 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _either(_ANGLE, _PHASE),
         _SPEED,
         _ACCELERATION,
+        _flag("--forces", "work out what each body carries, too: free bodies, their equations, the solution"),
+        _value("--moments-about JOINT", str, "take moments about this joint on bodies that have it"),
+        _STATIC,
         _flag("--exercise", "ask questions instead, with room to work, and put the key on pages of its own"),
         _takes(
             "--level",

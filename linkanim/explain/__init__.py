@@ -7,6 +7,7 @@ From the ground up; a module imports from those before it only:
     joints        the steps for each kind of joint; the vector loops
     synthesis     the chapter on how a linkage was made
     whole_motion  the chapters on how far the input goes and where the output turns back
+    forces        what each body carries: free bodies, their equations, the solution
     solution      the chapters of a pose, in order
     questions     what an exam asks about a pose, each question with the steps that answer it
     documents     a solution as HTML, LaTeX or Markdown

@@ -29,6 +29,7 @@ from linkanim.explain.steps import (
     Equation,
     Given,
     Item,
+    LargeSystem,
     Outcome,
     Step,
     System,
@@ -62,6 +63,12 @@ def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[Equation
             yield EquationRow(typeset(item.left, how), typeset(item.right, how))
         case System():
             yield from _system(item, how, blank)
+        case LargeSystem() if not blank:
+            found = [[typeset(entry, how, numbers=True) for entry in row] for row in item.values]
+            unknowns = how.matrix([[how.symbol(unknown)] for unknown in item.unknowns])
+            yield EquationRow(
+                how.matrix([row[:-1] for row in found]) + unknowns, how.matrix([row[-1:] for row in found])
+            )
 
 
 def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
@@ -331,7 +338,7 @@ def set_items(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[st
             yield form.paragraph(form.text(item.text))
         elif isinstance(item, Unknown):
             symbols = (form.inline(typeset(e, form.how)) for e in item.symbols)
-            yield form.paragraph(f"Unknown: {', '.join(symbols)}")
+            yield form.paragraph(f"{form.text(item.words)}: {', '.join(symbols)}")
 
 
 def listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[str, str]:

@@ -366,10 +366,11 @@ _TEXT = str.maketrans(
 
 
 def _latex_index(text: str) -> str:
-    """Return an index or a name in LaTeX: numbers in it are subscripts."""
+    """Return an index or a name in LaTeX: numbers in it are subscripts, but not those after a comma."""
+    before = [",", *(word for word, _ in _INDEX.findall(text))]
     found = [
-        f"_{{{digits}}}" if digits and n else digits or _letters(word)
-        for n, (word, digits) in enumerate(_INDEX.findall(text))
+        f"_{{{digits}}}" if digits and last != "," else digits or _letters(word)
+        for last, (word, digits) in zip(before, _INDEX.findall(text), strict=False)
     ]
     return "".join(found)
 
@@ -427,8 +428,8 @@ LATEX = Notation(
 def _mathml_index(text: str) -> str:
     tokens = _INDEX.findall(text)
     found: list[str] = []
-    for word, digits in tokens:
-        if digits and found:
+    for n, (word, digits) in enumerate(tokens):
+        if digits and n and tokens[n - 1][0] != ",":
             found[-1] = f"<msub>{found[-1]}<mn>{digits}</mn></msub>"
         else:
             found.append(f"<mn>{digits}</mn>" if digits else f"<mi mathvariant='normal'>{escape(word)}</mi>")

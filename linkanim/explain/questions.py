@@ -141,6 +141,7 @@ class _Exam:
                 yield from (self._moving(one, order, word) for one in points)
         if len(self.loops) < _MOST_DYADS:
             yield from self._whole()
+        yield from self._forces()
         yield from self._made()
 
     # The parts of the solution that lead to an answer.
@@ -411,6 +412,27 @@ class _Exam:
         if found:
             yield Step("", tuple(found))
 
+    def _forces(self) -> Iterator[ExamQuestion]:
+        """Yield the question on what joints carry, where forces are worked out: on one link at each joint."""
+        if not self.found.bodies:
+            return
+        first: dict[str, list[ExamAnswer]] = {}
+        for result in self.found.results:
+            _, joint, kind, axis = [*result.token.split("."), "", "", ""][:4]
+            if (
+                kind == "force"
+                and result.value.symbol
+                and len(first.setdefault(joint, [])) < 1 + (axis == "y")
+            ):
+                first[joint].append(ExamAnswer(result.value, result.unit))
+        parts = ("Centres of mass", "Springs and dampers", "Forces")
+        way = tuple(step for title in parts for step in self._chapter(title).steps)
+        lines = [item for step in way for item in step.items if isinstance(item, ValueLine)]
+        effort = [one for one in lines if one.value.symbol in _EFFORT]
+        answers = (*(one for pair in first.values() for one in pair), *_answers(effort))
+        text = "Draw each link free, with all that acts on it. Find the forces in joints and at the input."
+        yield ExamQuestion(text, answers, 2 + len(answers), _FREE, way)
+
     def _made(self) -> Iterator[ExamQuestion]:
         """Yield the question on how the linkage was synthesised, if it was."""
         if made := self.found.synthesis_chapter:
@@ -421,6 +443,8 @@ class _Exam:
             yield ExamQuestion(text, _answers([*last.values()][:4]), 6, "", made.steps)
 
 
+_EFFORT = (Symbol("M", "in"), Symbol("F", "in,s"))
+_FREE = "Begin at the end of the chain: moments on the two links that meet in a joint give its force."
 _ROTATE = "Go along the link by its angle, and at right angles to it."
 _DIFFERENTIATE = (
     "Differentiate the loop with respect to time: two linear equations.",

@@ -16,6 +16,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, Literal
 
+from linkanim.explain.forces import Balance, FreeBody, forces
 from linkanim.explain.formula import (
     ONE,
     TWO,
@@ -88,6 +89,10 @@ class PoseRequest:
     value: float
     speed: float
     acceleration: float = 0.0
+    forces: bool = False
+    """Whether what each body carries is worked out, too."""
+    about: str | None = None
+    """The joint about which moments are taken, on bodies that have it; else each one's first."""
 
     def motion(self) -> Any:
         """Return the pose as the solver gives it."""
@@ -322,14 +327,14 @@ def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula
         label = link_labels(work.linkage)[body.name]
         if body.mass is not None:
             at = body.slider or centre_name(body, rates)
-            velocity, acceleration = rates.of(at, 1), rates.of(at, 2)
-            pull = dot(acceleration, velocity) * square(metre)
+            velocity = rates.of(at, 1)
+            pull = ZERO if work.linkage.static else dot(rates.of(at, 2), velocity) * square(metre)
             if work.linkage.gravity:
                 fall = work.quoted(Symbol("g"), f"{work.linkage.gravity:.12g}", "m/s²")
                 pull = pull + fall * velocity.y * metre
             mass = work.quoted(Symbol("m", label), f"{body.mass:.12g}", "kg")
             yield work.let_plain(Symbol("P", label), mass * pull, "W")
-        if body.inertia is not None:
+        if body.inertia is not None and not work.linkage.static:
             inertia = work.quoted(Symbol("I", label), f"{body.inertia:.12g}", "kg m²")
             turning = known[f"{body.name}.angular_acceleration"] * known[f"{body.name}.angular_velocity"]
             yield work.let_plain(Symbol("P", f"{label}turn"), inertia * turning, "W")
@@ -429,6 +434,8 @@ class Solution:
     singular: bool
     made: bool = False
     """Whether the last chapter says how the linkage was made."""
+    bodies: tuple[FreeBody, ...] = ()
+    """Each body free, where forces were asked for."""
 
     @property
     def loop_chapter(self) -> Chapter:
@@ -591,6 +598,7 @@ class _Draft:
         self.results: list[Outcome] = []
         self.loops: tuple[VectorLoop, ...] = ()
         self.steps: list[Step] = []
+        self.bodies: tuple[FreeBody, ...] = ()
 
     def solution(self, rates: bool) -> Solution:
         """Return the solution, with velocities and accelerations if `rates`."""
@@ -613,7 +621,7 @@ class _Draft:
         # where two parts have one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
         at = {joint.name: self.work.place(joint.name) for joint in self.linkage.joints}
-        return Solution(self.request, chapters, loops, results, at, not rates, bool(made))
+        return Solution(self.request, chapters, loops, results, at, not rates, bool(made), self.bodies)
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
         """Add a step with the lines that `write` adds; no step where it adds none."""
@@ -728,6 +736,16 @@ class _Draft:
             known = {result.token: result.value for result in self.results}
             self._found("", effort(self.rates, known, self.request.motion()))
             yield from self._chapter("Load on the input")
+            if self.request.forces:
+                yield from self._forces(known)
+
+    def _forces(self, known: Mapping[str, Formula]) -> Iterator[Chapter]:
+        """Yield the chapter of what each body carries."""
+        balance = Balance(self.rates, known, self.motion, lambda body: centre_name(body, self.rates))
+        found = forces(balance, self.request.about)
+        self.results += found.results
+        self.bodies = found.bodies
+        yield Chapter("Forces", found.steps)
 
     def _found(self, title: str, found: Iterable[Outcome]) -> None:
         """Add a step with its results."""

@@ -103,13 +103,22 @@ class System:
 
 
 @frozen
+class LargeSystem:
+    """Several linear equations: the unknowns, and rows of the matrix, each with its right side behind it."""
+
+    unknowns: tuple[Symbol, ...]
+    values: tuple[tuple[Formula, ...], ...]
+
+
+@frozen
 class Unknown:
-    """The symbols that two equations are solved for."""
+    """Symbols in a row, as a rule those that two equations are solved for, and what they are."""
 
     symbols: tuple[Formula, ...]
+    words: str = "Unknown"
 
 
-Item = Words | ValueLine | Given | Equation | System | Unknown
+Item = Words | ValueLine | Given | Equation | System | LargeSystem | Unknown
 
 
 @frozen

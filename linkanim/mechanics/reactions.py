@@ -188,7 +188,7 @@ def guided(linkage: Linkage) -> tuple[str, ...]:
 def meshing(linkage: Linkage) -> Mapping[str, bool]:
     """Return the geared cranks, and whether teeth turn them, not a belt."""
     geared = (crank for crank in linkage.cranks if crank.gear is not None)
-    return {crank.name: _contact(linkage, crank)[0] is not None for crank in geared}
+    return {crank.name: contact(linkage, crank)[0] is not None for crank in geared}
 
 
 # The forces, joint by joint from the last to the first.
@@ -395,7 +395,7 @@ def _mesh(joint: Crank, moment: Any, balance: _Balance) -> None:
     assert gear is not None
     (bar,), (other,) = balance.members.of[joint.name], balance.members.of[gear.mate]
     centre, own, ratio = linkage.crank(gear.mate).pivot, balance.place(joint.pivot), float(gear.ratio)
-    share, still = _contact(linkage, joint)
+    share, still = contact(linkage, joint)
     if share is None:
         balance.couples[bar] = balance.couples[bar] + moment
         balance.couples[other] = balance.couples[other] - moment * ratio
@@ -414,7 +414,7 @@ def _mesh(joint: Crank, moment: Any, balance: _Balance) -> None:
     balance.gears[joint.name] = tangential if share > 1.0 else -tangential, radial, moment
 
 
-def _contact(linkage: Linkage, joint: Crank) -> tuple[float | None, bool]:
+def contact(linkage: Linkage, joint: Crank) -> tuple[float | None, bool]:
     """Return where two wheels touch, as a share of the way from the mate's pivot to the crank's own.
 
     Then whether the crank's wheel rolls on one that stands still. No share where no wheels mesh.

@@ -18,6 +18,7 @@ from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.exercise import LEVELS, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
+from linkanim.intake import few
 from linkanim.letters import LATEX
 from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.figure import dimensioned
@@ -28,6 +29,7 @@ from linkanim.picture.stills import still_phase
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
+from linkanim.units import shown as quoted
 
 _CONSTRUCTION = (960, 640)
 """The size of the figure of a construction, in pixels."""
@@ -105,10 +107,27 @@ def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
     def reached(changed: Scene) -> bool:
         return not isnan(replace(request, scene=changed).motion().phase)
 
+    request = replace(request, forces=options.forces or options.static, about=_about(scene, options))
     first = options.seed if options.seed is not None or count == 1 else 0
     for seed in [None] if first is None else range(first, first + count):
         changed = scene if seed is None else variant(scene, seed, reached)
-        yield replace(request, scene=in_unit(changed, options.unit))
+        shown = in_unit(changed, options.unit)
+        yield replace(request, scene=shown.without_inertia if options.static else shown)
+
+
+def _about(scene: Scene, options: Namespace) -> str | None:
+    """Return the joint about which moments are taken; BadInput where there is none, or are no forces."""
+    if options.forces or options.static:
+        scene.refuse_forceless()
+    about: str | None = options.moments_about
+    if about is not None and not (options.forces or options.static):
+        raise BadInput("--moments-about goes with --forces; add it")
+    if about is not None and about not in scene.linkage.by_name:
+        raise BadInput(
+            f"--moments-about {quoted(about)}: {scene.name} has no such joint; there are "
+            f"{few(scene.linkage.by_name)}"
+        )
+    return about
 
 
 def _rounded(request: PoseRequest) -> PoseRequest:
