@@ -32,10 +32,10 @@ may import them. How a frame and a recording come about, and the reason for each
 
 A kind of joint is its data in `mechanics/linkage`, how it closes in `mechanics/solver/closing`, what it
 carries in `mechanics/reactions`, how it is written in `scenes/file_form`, how it is worked out in
-`explain/joints`; what is drawn of it follows from its bars and from what slides. What holds links that are
-solved together is an equation in `mechanics/solver/following`. A kind of input is its data
-in `mechanics/linkage`, its path in `mechanics/solver/strokes`, how it is written in `scenes/file_form`, how
-it is worked out in `explain/solution`.
+`explain/joints` and `explain/forces`; what is drawn of it follows from its bars and from what slides. What
+holds links that are solved together is an equation in `mechanics/solver/following`. A kind of input is its
+data in `mechanics/linkage`, its path in `mechanics/solver/strokes`, how it is written in `scenes/file_form`,
+how it is worked out in `explain/solution`.
 """
 
 import os

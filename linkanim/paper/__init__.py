@@ -11,6 +11,7 @@ From the ground up; a module imports from those before it only:
     sentences     what a chart shows, in sentences
     chart         a chart on a page
     polar         a vector round a turn, as a polar diagram
+    deck          slides with pictures, as a file for PowerPoint and its like
     figure        one pose of a scene
     vectors       the vectors of a worked solution's loops
     construction  how a linkage was synthesised, and its structural error

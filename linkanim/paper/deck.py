@@ -29,7 +29,7 @@ _HEAD = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
 _TYPE = "application/vnd.openxmlformats-officedocument.presentationml"
 
 
-class Slide(NamedTuple):
+class DeckSlide(NamedTuple):
     """A GIF, its size in pixels, the title of its slide, and what is said of it in the notes."""
 
     gif: bytes
@@ -43,7 +43,7 @@ def below_title(size: tuple[int, int]) -> tuple[int, int]:
     return size[0], 2 * round((1.0 - _TITLE) * size[1] / 2)
 
 
-def deck(slides: Sequence[Slide], shape: tuple[int, int], *, titled: bool = False) -> bytes:
+def deck(slides: Sequence[DeckSlide], shape: tuple[int, int], *, titled: bool = False) -> bytes:
     """Return slides in the shape of `shape` (width, height) as the bytes of a `.pptx`.
 
     A slide's picture is as large as fits, in the middle; with `titled` below the slide's title.
@@ -59,7 +59,7 @@ def deck(slides: Sequence[Slide], shape: tuple[int, int], *, titled: bool = Fals
     return packed.getvalue()
 
 
-def _parts(slides: Sequence[Slide], height: int, *, titled: bool) -> Iterator[tuple[str, str | bytes]]:
+def _parts(slides: Sequence[DeckSlide], height: int, *, titled: bool) -> Iterator[tuple[str, str | bytes]]:
     """Yield the parts of the file by their names, and those that say how they belong together."""
     numbers = range(1, len(slides) + 1)
     yield "[Content_Types].xml", _content_types(numbers)
@@ -152,7 +152,7 @@ def _title_box(height: int) -> str:
     return f'<a:off x="{side}" y="0"/><a:ext cx="{WIDTH - 2 * side}" cy="{round(_TITLE * height)}"/>'
 
 
-def _slide(slide: Slide, height: int, *, titled: bool) -> str:
+def _slide(slide: DeckSlide, height: int, *, titled: bool) -> str:
     """Return a slide: its title, if it shows one, and its picture, as large as fits below."""
     top = round(_TITLE * height) if titled else 0
     scale = min(WIDTH / slide.size[0], (height - top) / slide.size[1])
@@ -169,7 +169,7 @@ def _slide(slide: Slide, height: int, *, titled: bool) -> str:
     return f"{_HEAD}<p:sld {_SPACES}><p:cSld>{_tree(title + picture)}</p:cSld>{_COLOURS_OF_MASTER}</p:sld>"
 
 
-def _notes(slide: Slide) -> str:
+def _notes(slide: DeckSlide) -> str:
     image = (
         '<p:sp><p:nvSpPr><p:cNvPr id="2" name="Slide"/><p:cNvSpPr><a:spLocks noGrp="1" noRot="1" '
         'noChangeAspect="1"/></p:cNvSpPr><p:nvPr><p:ph type="sldImg"/></p:nvPr></p:nvSpPr><p:spPr/></p:sp>'

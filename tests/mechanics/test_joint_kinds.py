@@ -87,6 +87,8 @@ JOINT_FILES = {
     "mechanics/reactions",
     "scenes/file_form",
     "explain/joints",
+    "explain/forces",
+    "explain/questions",
 }
 INPUT_FILES = {"mechanics/linkage", "mechanics/solver/strokes", "scenes/file_form", "explain/solution"}
 

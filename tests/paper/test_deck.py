@@ -14,7 +14,7 @@ from pptx import Presentation
 from pptx.enum.shapes import MSO_SHAPE_TYPE
 
 from linkanim.cli import main
-from linkanim.paper.deck import Slide, below_title, deck
+from linkanim.paper.deck import DeckSlide, below_title, deck
 
 SHAPE = (320, 180)
 
@@ -32,7 +32,7 @@ RED, BLUE = gif((255, 0, 0)), gif((0, 0, 255), below_title(SHAPE))
 
 @pytest.mark.parametrize("titled", [False, True])
 def test_a_slide_has_its_loop_its_title_and_notes(titled: bool) -> None:
-    slides = [Slide(RED, SHAPE, "A & <B>", 'first "note"'), Slide(RED, SHAPE, "B", "second")]
+    slides = [DeckSlide(RED, SHAPE, "A & <B>", 'first "note"'), DeckSlide(RED, SHAPE, "B", "second")]
     shown = Presentation(BytesIO(deck(slides, SHAPE, titled=titled)))
     assert (shown.slide_width, shown.slide_height) == (12_192_000, 6_858_000)
     assert len(shown.slides) == 2
@@ -51,20 +51,20 @@ def test_a_slide_has_its_loop_its_title_and_notes(titled: bool) -> None:
 
 
 def test_a_loop_below_a_title_fills_what_is_left() -> None:
-    shown = Presentation(BytesIO(deck([Slide(BLUE, below_title(SHAPE), "T", "")], SHAPE, titled=True)))
+    shown = Presentation(BytesIO(deck([DeckSlide(BLUE, below_title(SHAPE), "T", "")], SHAPE, titled=True)))
     title, picture = shown.slides[0].shapes
     assert 0 <= picture.top - title.height < 0.01 * 6_858_000
     assert picture.width > 0.99 * 12_192_000
 
 
 def test_the_same_slides_have_the_same_bytes() -> None:
-    assert deck([Slide(RED, SHAPE, "T", "")], SHAPE) == deck([Slide(RED, SHAPE, "T", "")], SHAPE)
+    assert deck([DeckSlide(RED, SHAPE, "T", "")], SHAPE) == deck([DeckSlide(RED, SHAPE, "T", "")], SHAPE)
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("soffice") is None, reason="needs LibreOffice")
 def test_another_program_draws_the_slides(tmp_path: Path) -> None:
-    (tmp_path / "a.pptx").write_bytes(deck([Slide(RED, SHAPE, "T", "said")], SHAPE))
+    (tmp_path / "a.pptx").write_bytes(deck([DeckSlide(RED, SHAPE, "T", "said")], SHAPE))
     home = f"-env:UserInstallation=file://{tmp_path}/home"
     words = ["soffice", home, "--headless", "--convert-to", "png", "--outdir", str(tmp_path)]
     subprocess.run([*words, str(tmp_path / "a.pptx")], check=True, capture_output=True)

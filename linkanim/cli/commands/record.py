@@ -118,7 +118,7 @@ def _at(options: Namespace, target: Output, progress: Progress | None) -> Record
 
 def _slides(options: Namespace, target: Output, progress: Progress | None) -> str:
     """Write a slide for each scene or tape; return what was written."""
-    from linkanim.paper.deck import Slide, below_title, deck
+    from linkanim.paper.deck import DeckSlide, below_title, deck
 
     shape = options.size or PRESETS["slides"].size
     size = below_title(shape) if options.titles else shape
@@ -131,7 +131,7 @@ def _slides(options: Namespace, target: Output, progress: Progress | None) -> st
             asked = Namespace(**{**vars(options), **how})
             made, _ = _recorded(asked, Output(gif := Path(folder) / f"{n}.gif"), progress)
             notes = made if _is_tape(asked) else plain(_words(asked))
-            slides.append(Slide(gif.read_bytes(), size, titles.get(scene, _stem(scene)), notes))
+            slides.append(DeckSlide(gif.read_bytes(), size, titles.get(scene, _stem(scene)), notes))
     with target.replacing() as part:
         part.write_bytes(deck(slides, shape, titled=options.titles))
     count = f"{len(slides)} slides" if len(slides) > 1 else "one slide"
