@@ -110,7 +110,8 @@ def place_input(request: PoseRequest, rates: Rates) -> None:
     work = rates.work
     joint = work.linkage.driven.joint
     ends = (joint.pivot, joint.name) if isinstance(joint, Crank) else None
-    symbol = work.angle_symbol(*ends) if ends else work.names.slide(joint.name)
+    slid = Symbol("θ", joint.name) if joint.motor else work.names.slide(joint.name)
+    symbol = work.angle_symbol(*ends) if ends else slid
     found = (_swinging if request.swings else _stated)(request, rates, symbol)
     if ends:
         work.angles[ends] = found

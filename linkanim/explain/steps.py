@@ -163,6 +163,8 @@ class Outcome:
 # The symbols of a worked solution: those of the figure's dimensions and of the scene's links.
 
 Pair = tuple[str, str]
+BETWEEN = -1
+"""The number that stands for the angle of a motor between two links that move."""
 _PLAIN = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
@@ -209,7 +211,7 @@ class SymbolNames:
             frame = holding(self.linkage.rigid_bodies, ends)
             if frame is not None:
                 found[frame] = label
-        return found
+        return found | {BETWEEN: self.linkage.drive.joint}
 
 
 def names_of(figure: Figure) -> SymbolNames:
@@ -414,8 +416,13 @@ class Work:
 
     @property
     def driver(self) -> int | str:
-        """The input: the number of the crank's rigid body, or the name of the slider's joint."""
+        """The input: the number of the crank's rigid body, or the name of the slider's joint.
+
+        Of a motor between two links that move it is `BETWEEN`.
+        """
         joint = self.linkage.driven.joint
+        if joint.motor:
+            return BETWEEN
         return self.frame((joint.pivot, joint.name)) if isinstance(joint, Crank) else joint.name
 
     def guide(self, line: Travel, joint: str) -> GuideLine:

@@ -252,12 +252,12 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
 
 def group_name(group: LinkGroup) -> str:
     """Name a linkage whose links are solved together by how many there are, and what they have."""
-    words = {5: "five-bar", 6: "six-bar", 7: "seven-bar", 8: "eight-bar", 10: "ten-bar", 12: "twelve-bar"}
-    count = len(group.members)
+    words, count = ("four", "five", "six", "seven", "eight", "nine", "ten"), len(group.members)
+    bars = f"{words[count - 4] if 4 <= count <= 10 else count}-bar"
     sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
     has = zip(("slider", "slot", "gears"), (*sliding, bool(group.gears)), strict=True)
     parts = " and ".join(word for word, there in has if there)
-    return f"{words.get(count, f'{count}-bar')} linkage{f' with {parts}' if parts else ''}"
+    return f"{bars} linkage{f' with {parts}' if parts else ''}"
 
 
 def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:

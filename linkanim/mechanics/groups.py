@@ -22,13 +22,17 @@ GROUND = "ground"
 
 @frozen
 class GroupLink(Stated):
-    """A link of a group: its points, and where they are in the pose."""
+    """A link of a group: its points, and where they are in the pose.
+
+    Of a link with two points the `length` is their distance, where that was stated.
+    """
 
     name: str
     points: tuple[str, ...]
     places: tuple[Point, ...]
+    length: float = 0.0
 
-    sized: ClassVar[tuple[str, ...]] = ("places",)
+    sized: ClassVar[tuple[str, ...]] = ("places", "length")
 
     def place(self, point: str) -> complex:
         """Return where a point of the link is in the pose."""
@@ -58,12 +62,24 @@ class GroupGear(NamedTuple):
     ratio: Fraction
 
 
+class GroupMotor(NamedTuple):
+    """A motor between two links that both move: where it is, and a point of each beside it.
+
+    The input's angle is that of the second one's way from the pivot, from the first one's.
+    """
+
+    pivot: str
+    links: tuple[str, str]
+    arms: tuple[str, str]
+
+
 @frozen
 class LinkGroup(Stated):
     """Links that are solved together, the ground and the driven crank among them, in one pose.
 
-    `at` is the crank's angle in the pose (rad), `crank` its link. `points` are those that the group places,
-    in the order of the linkage's joints.
+    `at` is the input's angle in the pose (rad), `crank` the crank's link: "" where a `motor` drives that is
+    between two links of the group. `points` are those that the group places, in the order of the linkage's
+    joints.
     """
 
     at: float
@@ -72,6 +88,7 @@ class LinkGroup(Stated):
     points: tuple[str, ...]
     slides: tuple[GroupSlide, ...] = ()
     gears: tuple[GroupGear, ...] = ()
+    motor: GroupMotor | None = None
 
     sized: ClassVar[tuple[str, ...]] = ("members",)
 
@@ -115,6 +132,12 @@ class GroupPoint(Joint):
 
     sized: ClassVar[tuple[str, ...]] = ("group",)
     grouped: ClassVar[bool] = True
+
+    @property
+    def motor(self) -> tuple[str, str] | None:
+        """The link that a motor at the joint turns, and the joint towards which its angle is 0."""
+        own = self.group.motor
+        return (own.links[1], own.arms[0]) if own and own.pivot == self.name else None
 
     @property
     def stated_lengths(self) -> tuple[float, ...]:

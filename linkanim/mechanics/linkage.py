@@ -160,6 +160,14 @@ class Joint(Stated):
         return ()
 
     @property
+    def motor(self) -> tuple[str, str] | None:
+        """Of a motor at the joint, which moves itself: the link that it turns, and a joint of the other one.
+
+        Towards that the motor's angle is 0. None where there is no motor.
+        """
+        return None
+
+    @property
     def body(self) -> tuple[str, ...]:
         """The joints that must be on one rigid body, the first two of them apart: they show its axis."""
         return ()
@@ -927,15 +935,16 @@ class Load(Stated):
 
 
 class Driven(NamedTuple):
-    """What the drive moves: a crank about its pivot, or a slider.
+    """What the drive moves: a crank about its pivot, a slider, or a link about one that moves itself.
 
     `body` is the crank's body, None where no named body has the crank. Of a slider `body` is None and `pivot`
-    "".
+    "". Towards `base` from the pivot the input's angle is 0; None where that is to the right.
     """
 
-    joint: Crank | DrivenSlider
+    joint: Joint
     pivot: str
     body: Body | None
+    base: str | None = None
 
 
 @frozen
@@ -1049,6 +1058,10 @@ class Linkage(Stated):
         joint = self.by_name[self.drive.joint]
         if isinstance(joint, DrivenSlider):
             return Driven(joint, "", None)
+        if joint.motor is not None:
+            link, base = joint.motor
+            body = next((one for one in self.bodies if one.name == link), None)
+            return Driven(joint, joint.name, body, base)
         assert isinstance(joint, Crank)
         ends = {joint.pivot, joint.name}
         return Driven(joint, joint.pivot, next((one for one in self.bodies if ends <= set(one.joints)), None))

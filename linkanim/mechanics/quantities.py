@@ -114,10 +114,15 @@ def phrase(body: Body, names: Mapping[str, str]) -> str:
 
 
 def input_symbol(linkage: Linkage) -> str:
-    """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
+    """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s.
+
+    Of a motor in a joint B that moves it is θ_B.
+    """
     coordinate, body = linkage.drive.coordinate, linkage.driven.body
     if not coordinate.is_angle:
         return coordinate.letter
+    if linkage.driven.base is not None:
+        return indexed(coordinate.letter, linkage.driven.pivot)
     return indexed(coordinate.letter, link_labels(linkage)[body.name] if body else "2")
 
 

@@ -5,6 +5,7 @@ Its parts, in reading order:
 - Lengths, as shares of the lengths beside them: what of a length its last digits cannot tell.
 - Margins and factors of a dyad, as shares of their greatest value: what is none, or has no digits.
 - Places of the input, in phase or in radians: what is one place, and how near a search comes.
+- Links that are solved together: when they are solved, and back.
 - Values and rates, as shares of their usual size: what is rounding.
 """
 
@@ -110,6 +111,22 @@ NO_RANGE = 1e-12
 """Ranges that overlap by no more than this, in radians, touch."""
 OWN_LIMIT = 1e-15
 """A limit within this angle of the end of a swing is that end."""
+
+
+# Links that are solved together: places in lengths of the linkage, turns in radians.
+
+NO_STEP = 1e-7
+"""A step along the closure shorter than this is none: two closures meet there."""
+SOLVED = 1e-13
+"""A correction of links that are solved together below which they are solved, in floats."""
+GUESSED = 1e-10
+"""The same before they are solved to 38 digits: the correction there starts from about the square of this."""
+SOLVED_TO_ALL_DIGITS = 1e-14
+"""A correction in 38 digits after which the next one would be below 1e-27."""
+LIMIT_SOLVED = 1e-34
+"""A correction of a limit, in 38 digits, below which it is found."""
+SAME_POSE = 1e-9
+"""What a pose may be off another one, and be the same: the closure that is followed is back."""
 
 
 # Values and rates, as shares of their usual size: what is rounding.

@@ -306,6 +306,8 @@ def _named(*joints: str) -> str:
 
 
 def _angle(figure: Figure) -> str:
+    if figure.linkage.driven.base is not None:
+        return subscripted(f"θ{figure.linkage.driven.pivot}")
     driven = figure.linkage.driven.body
     joints = set(driven.joints) if driven else {""}
     number = next((n for body, n in figure.numbers.items() if joints <= set(body.joints)), "2")

@@ -16,7 +16,6 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import cmath
-import math
 import re
 from cmath import rect
 from collections.abc import Iterator, Mapping
@@ -624,14 +623,16 @@ def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> flo
     An input that swings stops at its limits. Of the two phases of an angle the nearer one is returned; past a
     limit, the one on the other way. A point on the pivot itself changes nothing.
     """
-    mechanism, driven = scene.mechanism, scene.linkage.driven.joint
+    mechanism, (driven, pivot, _, base) = scene.mechanism, scene.linkage.driven
     if isinstance(driven, DrivenSlider):
-        base, (along, left) = scene.linkage.pin(driven.line.through).position, unit(driven.line.angle)
-        travel = (point[0] - base[0]) * along + (point[1] - base[1]) * left
+        start, (along, left) = scene.linkage.pin(driven.line.through).position, unit(driven.line.angle)
+        travel = (point[0] - start[0]) * along + (point[1] - start[1]) * left
         return mechanism.phase_of(travel, phase)
-    pivot = scene.pose(phase, 0).position[driven.pivot]
-    x, y = point[0] - pivot[0], point[1] - pivot[1]
-    return phase if x == 0.0 == y else mechanism.phase_of(math.atan2(y, x), phase)
+    at = {name: complex(*place) for name, place in scene.pose(phase, 0).position.items()}
+    way = complex(*point) - at[pivot]
+    if base is not None:
+        way /= at[base] - at[pivot]
+    return phase if way == 0 else mechanism.phase_of(cmath.phase(way), phase)
 
 
 def phase_along(scene: Scene, phase: float, direction: complex) -> float:

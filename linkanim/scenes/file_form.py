@@ -405,6 +405,10 @@ def read_drive(top: Table, usual: str | None) -> Drive | None:
     cylinder = values.get("cylinder")
     cranks = [joint for joint in joints if isinstance(joint, Crank)]
     free = [crank.name for crank in cranks if crank.gear is None]
+    if any(joint.motor for joint in joints):
+        at_zero, retraced = values["start"] == 0, values["returns"] == "same"
+        speed = _phase_speed(table, values["speed"], MOTOR)
+        return Drive(values["joint"], speed, values["start"], at_zero=at_zero, retraced=retraced)
     if not free:
         raise top.table("joints").wrong("no crank is free to be driven; add one without a gear, as the input")
     by_cylinder = "joint" in (cylinder or {})

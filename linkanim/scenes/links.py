@@ -21,7 +21,15 @@ from typing import Any
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
-from linkanim.mechanics.groups import GroupGear, GroupLink, GroupPoint, GroupSlide, GroupSlider, LinkGroup
+from linkanim.mechanics.groups import (
+    GroupGear,
+    GroupLink,
+    GroupMotor,
+    GroupPoint,
+    GroupSlide,
+    GroupSlider,
+    LinkGroup,
+)
 from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS
 from linkanim.scenes.form import Table, on_circle
@@ -571,10 +579,14 @@ def as_joints(top: Table) -> AsJoints | None:
 def _as_joints(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> AsJoints:
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
+    group: tuple[GroupPoint, ...] = ()
+    if "slide" not in drive and (motor := _moving_motor(chain, drive)):
+        driven = _by_moving_motor(chain, motor)
+        group = _group(chain, motor)
+        return AsJoints(_document(top, pose, chain, driven), group)
     driven = _by_slide(chain, drive) if "slide" in drive else _by_motor(chain, drive)
     while chain.grow():
         pass
-    group: tuple[GroupPoint, ...] = ()
     if not {*pose.places} <= chain.known:
         _refuse_unfound(top, chain, drive)
         chain = _Dyads(top, pose)
@@ -587,17 +599,27 @@ def _as_joints(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> AsJoin
     return AsJoints(_document(top, pose, chain, driven), group)
 
 
-def _group(chain: _Dyads) -> tuple[GroupPoint, ...]:
-    """Return the joints of all links that the crank moves, which are solved together."""
-    pose, (crank, geared) = chain.pose, next(iter(chain.turning.items()))
+def _group(chain: _Dyads, motor: GroupMotor | None = None) -> tuple[GroupPoint, ...]:
+    """Return the joints of all links that the crank, or a motor between two of them, moves."""
+    pose = chain.pose
+    if motor:
+        crank, at = "", _angle_between(pose, motor)
+    else:
+        crank, geared = next(iter(chain.turning.items()))
+        at = geared.angle
     members = tuple(
-        GroupLink(name, points, tuple((pose.places[point].real, pose.places[point].imag) for point in points))
+        GroupLink(
+            name,
+            points,
+            tuple((pose.places[point].real, pose.places[point].imag) for point in points),
+            pose.stated.get(frozenset(points), 0.0) if len(points) == 2 else 0.0,
+        )
         for name, points in pose.links.items()
     )
     slides = tuple(_group_slide(pose, slide) for slide in pose.slides)
     gears = tuple(GroupGear(gear.name, gear.links, gear.carrier, gear.ratio) for gear in pose.gears)
     points = tuple(name for name in _connected(chain) if name not in chain.known)
-    group = LinkGroup(geared.angle, crank, members, points, slides, gears)
+    group = LinkGroup(at, crank, members, points, slides, gears, motor)
     blocks = {slide.point: slide.link for slide in slides if not slide.turns and group.line(slide)}
     chain.blocks |= {link: point for point, link in blocks.items()}
     return tuple((GroupSlider if name in blocks else GroupPoint)(name, group) for name in points)
@@ -666,11 +688,8 @@ _OWN = ("joint", *(one.key for one in MOTOR_OF_POINTS))
 def _by_motor(chain: _Dyads, drive: Mapping[str, Any]) -> dict[str, Any]:
     """Add the driven crank; return the drive's table."""
     table, pose = chain.top.table("drive"), chain.pose
-    pivot = drive.get("joint") or _usual_pivot(pose)
-    if pivot not in pose.places:
-        way_out = f"{meant(pivot, pose.places)}; name the one where the motor turns"
-        raise table.error("joint", f"is no point{way_out}")
-    crank = _driven_link(table, pose, pivot, drive.get("links"))
+    pivot = _pivot_of(table, pose, drive)
+    crank = _driven_links(table, pose, pivot, drive.get("links"))[1]
     pin = chain.pin_of(crank, pivot)
     written = chain.top.values["points"][pin]
     direction = phase(pose.places[pin] - pose.places[pivot])
@@ -684,14 +703,25 @@ def _by_motor(chain: _Dyads, drive: Mapping[str, Any]) -> dict[str, Any]:
     return {"start": start, **stated, "joint": pin}
 
 
+def _pivot_of(table: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> str:
+    """Return the point at which a motor turns."""
+    pivot: str = drive.get("joint") or _usual_pivot(pose)
+    if pivot not in pose.places:
+        way_out = f"{meant(pivot, pose.places)}; name the one where the motor turns"
+        raise table.error("joint", f"is no point{way_out}")
+    return pivot
+
+
 def _usual_pivot(pose: PosedLinks) -> str:
     """Return the first fixed point about which one link turns, else the first fixed point."""
     pins = pose.links[GROUND]
     return next((name for name in pins if len(pose.at(name)) == 2), pins[0])
 
 
-def _driven_link(table: Table, pose: PosedLinks, pivot: str, links: tuple[str, ...] | None) -> str:
-    """Return the link that a motor on the ground turns."""
+def _driven_links(
+    table: Table, pose: PosedLinks, pivot: str, links: tuple[str, ...] | None
+) -> tuple[str, str]:
+    """Return the two links between which a motor turns, the ground first, if it is one of them."""
     meeting = pose.at(pivot)
     if links is not None:
         if len(links) != 2 or not {*links} <= {*meeting} or links[0] == links[1]:
@@ -703,10 +733,32 @@ def _driven_link(table: Table, pose: PosedLinks, pivot: str, links: tuple[str, .
             raise table.error("joint", reason)
         way_out = f"say which two: links = [{shown(meeting[0])}, {shown(meeting[1])}]"
         raise table.error("joint", f"is where {', '.join(meeting)} meet; {way_out}")
-    if GROUND not in meeting:
-        both = f"is between {meeting[0]} and {meeting[1]}, which both move"
-        raise table.error("joint", f"{both}; only a motor on the ground is solved yet")
-    return next(name for name in meeting if name != GROUND)
+    carrier, driven = meeting
+    return (driven, carrier) if driven == GROUND else (carrier, driven)
+
+
+def _moving_motor(chain: _Dyads, drive: Mapping[str, Any]) -> GroupMotor | None:
+    """Return the motor between two links that both move; None where it is on the ground."""
+    table, pose = chain.top.table("drive"), chain.pose
+    pivot = _pivot_of(table, pose, drive)
+    links = _driven_links(table, pose, pivot, drive.get("links"))
+    if GROUND in links:
+        return None
+    if "cylinder" in drive:
+        raise table.error("cylinder", f"turns {links[1]} about a joint that moves; give both as links")
+    return GroupMotor(pivot, links, (chain.pin_of(links[0], pivot), chain.pin_of(links[1], pivot)))
+
+
+def _by_moving_motor(chain: _Dyads, motor: GroupMotor) -> dict[str, Any]:
+    """Return the drive's table of a motor between two links that both move."""
+    stated = {key: value for key, value in chain.top.table("drive").values.items() if key not in _OWN}
+    return {"start": in_degrees(_angle_between(chain.pose, motor)), **stated, "joint": motor.pivot}
+
+
+def _angle_between(pose: PosedLinks, motor: GroupMotor) -> float:
+    """Return the input's angle in the pose."""
+    first, second = (pose.places[arm] - pose.places[motor.pivot] for arm in motor.arms)
+    return phase(second / first)
 
 
 def _by_slide(chain: _Dyads, drive: Mapping[str, Any]) -> dict[str, Any]:

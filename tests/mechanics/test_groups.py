@@ -225,6 +225,40 @@ def test_whatever_holds_the_links_holds_them_all_the_way(held_by: Mapping[str, A
         assert np.ptp(np.cos(off)) + np.ptp(np.sin(off)) < 1e-12
 
 
+BETWEEN: dict[str, Any] = {
+    "points": {"O2": [0, 0], "O4": [80, 0], "A": [7.5, 29.05], "B": [64.6, 47.6]},
+    "links": {"ground": ["O2", "O4"], "crank": ["O2", "A"], "coupler": ["A", "B"], "rocker": ["O4", "B"]},
+    "lengths": {"crank": {"O2-A": 30}, "coupler": {"A-B": 60}, "rocker": {"O4-B": 50}},
+    "drive": {"joint": "B", "links": ["coupler", "rocker"], "speed": "1 rad/s"},
+}
+
+
+def test_a_motor_between_two_moving_links_drives_by_the_angle_between_them() -> None:
+    scene = read(BETWEEN)
+    found = scene.solve(angle=math.pi / 2, speed=1.0)
+    assert math.degrees(float(found.angle["crank"])) == pytest.approx(75.52249, abs=5e-6)
+    assert found.angular_velocity["rocker"] - found.angular_velocity["coupler"] == pytest.approx(
+        1.0, abs=1e-14
+    )
+    assert found.angular_acceleration["rocker"] == pytest.approx(
+        found.angular_acceleration["coupler"], abs=1e-13
+    )
+    assert scene.info.input_range[0] == pytest.approx(math.acos(0.6), abs=1e-15)
+
+
+def test_two_closures_that_cross_are_passed_straight_on() -> None:
+    # 30 + 80 = 50 + 60: all bars lie in one line where the motor's angle is half a turn
+    scene = read(BETWEEN)
+    phases = math.pi / 2 + np.linspace(-0.1, 0.1, 401)
+    found = scene.solve(phase=phases, speed=1.0)
+    for kind in (found.position, found.velocity):
+        for name in "AB":
+            second = np.abs(np.diff(kind[name], 2, axis=0)).max()
+            assert second < 1e-2 * np.abs(np.diff(kind[name], axis=0)).max()
+    crossed = scene.solve(angle=math.pi, speed=1.0).position["B"]
+    assert crossed == pytest.approx([30, 0], abs=1e-13)
+
+
 def exact(value: Any) -> Any:
     """Return a sum of two floats with all its digits."""
     return mp.mpf(value.high) + mp.mpf(value.low)

@@ -341,7 +341,14 @@ REFUSED = [
         "links",
         "one body",
     ),
-    ("a motor on a coupler", FOUR_BAR.replace('joint = "O2"', 'joint = "A"'), "drive.joint", "both move"),
+    (
+        "a cylinder on moving links",
+        FOUR_BAR.replace(
+            'joint = "O2"', 'joint = "A"\ncylinder = { between = ["O2", "B"], from = 9, to = 10 }'
+        ),
+        "drive.cylinder",
+        "turns coupler about a joint that moves",
+    ),
     ("a motor at a point", FOUR_BAR.replace('joint = "O2"', 'joint = "P"'), "drive.joint", "alone"),
     (
         "at a limit",

@@ -45,12 +45,11 @@ from linkanim.mechanics.solver.following import (
     units_of,
 )
 from linkanim.mechanics.solver.input import InputPath, InputState, Swing, Turn
+from linkanim.mechanics.tolerances import GUESSED, LIMIT_SOLVED, SOLVED_TO_ALL_DIGITS
 
 # The limits of the closure that was followed, found in 38 digits.
 
 _ROUNDS = 12
-_SHARP = 1e-9
-"""The least bend of the input beside a limit: with less, two closures meet there besides."""
 
 
 class TurningPlace(NamedTuple):
@@ -89,7 +88,7 @@ def limit_beside(system: LinkEquations, y: Array, tangent: Array) -> TurningPlac
             break
         at = at + fixed(step[:size].reshape(-1, 1))
         along = along + fixed(step[size:].reshape(-1, 1))
-        if np.abs(step[:size]).max() < 1e-34:
+        if np.abs(step[:size]).max() < LIMIT_SOLVED:
             break
     here, way = in_floats(at)[:, 0], in_floats(along)[:, 0]
     if not np.isfinite(here).all() or np.abs(here - y).max() > 1.0:
@@ -176,8 +175,6 @@ def _sum(whole: int) -> Sum:
 
 # The course: each point's coordinates, piece by piece polynomials of the phase.
 
-_ROUNDED = 1e-14
-"""A correction by rounding: the next one would be below 1e-27."""
 COUNT = 16
 """The coefficients of a piece."""
 _LAST_BIT = 66
@@ -226,7 +223,8 @@ def carriers(
     linkage: Linkage, group: LinkGroup
 ) -> tuple[dict[str, tuple[int, str]], dict[str, tuple[tuple[str, str], complex]]]:
     """Return the points whose coordinates are kept, each with a link and its number, and the derived ones."""
-    numbers = {group.crank: 0, **{member.name: n for n, member in enumerate(group.free, start=1)}}
+    moving = [group.crank] * bool(group.crank) + [member.name for member in group.free]
+    numbers = {name: n for n, name in enumerate(moving)}
     known = [joint.name for joint in linkage.joints if joint.name not in group.points]
     placed: dict[str, tuple[int, str]] = {}
     derived: dict[str, tuple[tuple[str, str], complex]] = {}
@@ -324,7 +322,7 @@ class _Fit:
                 ..., 0
             ]
             y[:, :-1] -= step
-            if np.abs(step).max() < 1e-10:
+            if np.abs(step).max() < GUESSED:
                 break
         inverse = np.linalg.inv(self.system.jacobian(y)[:, :, :-1])
         at = fixed(y.T)
@@ -333,7 +331,7 @@ class _Fit:
             off: Array = in_floats(self.exact.residual(at)).T
             step = np.asarray(inverse @ off[..., None])[..., 0].T
             at[:-1] -= fixed(step)
-            if np.abs(step).max() < _ROUNDED:
+            if np.abs(step).max() < SOLVED_TO_ALL_DIGITS:
                 break
         units = self.exact.units(at)
         rows: list[Any] = []

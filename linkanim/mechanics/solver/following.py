@@ -17,6 +17,7 @@ Nullstellen mit Fehlerschranken, Computing 4, 1969.)
 from __future__ import annotations
 
 import math
+from cmath import phase
 from collections.abc import Iterable, Mapping
 from decimal import localcontext
 from fractions import Fraction
@@ -32,6 +33,7 @@ from linkanim.mechanics.groups import GROUND, LinkGroup, direction_of, group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.precise import context, sides
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.tolerances import NO_STEP, SAME_POSE, SOLVED
 
 # The equations of a group: pins, slots, angles that go together, in the places and turns of its links.
 
@@ -385,13 +387,13 @@ def system_of(linkage: Linkage) -> LinkEquations:
     """Return the equations of a linkage with a group; AssemblyError where they are too many or too few."""
     group = group_of(linkage)
     assert group is not None
-    crank = linkage.crank(linkage.drive.joint)
-    longest = max([abs(complex(*place)) for one in group.members for place in one.places] + [crank.length])
+    longest = max(abs(complex(*place)) for one in group.members for place in one.places)
     shrunk = math.ldexp(1.0, -math.frexp(longest)[1])
     frames = tuple(_frames(linkage, group, Fraction(shrunk)))
-    if len(frames) - 1 > MOST_LINKS:
+    count = len([*group.free])
+    if count > MOST_LINKS:
         raise AssemblyError(
-            f"{len(frames) - 1} links have to be solved together, and {MOST_LINKS} are the most here;"
+            f"{count} links have to be solved together, and {MOST_LINKS} are the most here;"
             " leave links out, or drive it where dyads follow"
         )
     ground = {
@@ -411,6 +413,26 @@ def system_of(linkage: Linkage) -> LinkEquations:
 
 
 def _frames(linkage: Linkage, group: LinkGroup, shrunk: Fraction) -> Iterable[LinkFrame]:
+    if group.crank:
+        yield _crank_frame(linkage, group, shrunk)
+    for member in group.free:
+        first = member.places[0]
+        origin, angle = complex(*first) * float(shrunk), 0.0
+        if member.length:
+            # so that a length that was stated stays the number that it is
+            angle = phase(complex(*member.places[1]) - complex(*first))
+            local = {member.points[0]: (Fraction(0),) * 2}
+            local[member.points[1]] = Fraction(member.length) * shrunk, Fraction(0)
+        else:
+            ways = (
+                [Fraction(a) - Fraction(b) for a, b in zip(place, first, strict=True)]
+                for place in member.places
+            )
+            local = {name: (x * shrunk, y * shrunk) for name, (x, y) in zip(member.points, ways, strict=True)}
+        yield LinkFrame(member.name, local, origin, angle)
+
+
+def _crank_frame(linkage: Linkage, group: LinkGroup, shrunk: Fraction) -> LinkFrame:
     crank = linkage.crank(linkage.drive.joint)
     own = next(frame for frame in linkage.rigid_bodies[1:] if {crank.pivot, crank.name} <= frame.keys())
     pivot = own[crank.pivot]
@@ -419,14 +441,7 @@ def _frames(linkage: Linkage, group: LinkGroup, shrunk: Fraction) -> Iterable[Li
         for name, at in own.items()
     }
     at = complex(*linkage.pin(crank.pivot).position) * float(shrunk)
-    yield LinkFrame(group.crank, places, at, group.at)
-    for member in group.free:
-        first = member.places[0]
-        local = {
-            name: tuple((Fraction(a) - Fraction(b)) * shrunk for a, b in zip(place, first, strict=True))
-            for name, place in zip(member.points, member.places, strict=True)
-        }
-        yield LinkFrame(member.name, local, complex(*first) * float(shrunk), 0.0)  # type: ignore[arg-type]
+    return LinkFrame(group.crank, places, at, group.at)
 
 
 class _Build:
@@ -453,9 +468,10 @@ class _Build:
             (first, second), ratio = gear.links, gear.ratio
             self._relation({second: Fraction(1), first: -ratio, gear.carrier: ratio - 1})
         last = 3 * len(self.frames) + len(self.slots)
-        crank = self.number[self.group.crank]
-        assert crank is not None
-        self.linear.append({3 * crank + 2: Fraction(1), last: Fraction(-1)})
+        motor = self.group.motor
+        carrier, driven = motor.links if motor else (GROUND, self.group.crank)
+        self._relation({driven: Fraction(1), carrier: Fraction(-1)})
+        self.linear[-1] = {**self.linear[-1], last: Fraction(-1)}
         return LinkEquations(
             self.frames,
             self.ground,
@@ -505,12 +521,12 @@ class _Build:
 
 # Following the closure from the given pose, all the way round until it is back.
 
-_FIRST, _LEAST, _MOST_STEPS = 0.05, 1e-7, 20_000
-"""The first step, the least one, and the most of them, in lengths of the system and in radians."""
-_ROUNDED = 1e-13
-"""A residual that is rounding."""
+_FIRST, _MOST_STEPS = 0.05, 20_000
+"""The first step, and the most of them, in lengths of the system and in radians."""
 _SINGULAR = 1e9
 """The condition of the links' own equations from which on a pose is at a limit."""
+_ACROSS, _BENT = (0.02, 0.01, 0.005), 20.0
+"""Steps across a change point, and the most by which the path's direction may change on one, in steps."""
 _GROWN, _TRIES, _BOUNDED = 1.4, 4, 8
 
 
@@ -542,7 +558,7 @@ def settled(system: LinkEquations, y: Array) -> Array:
             break
         step = np.linalg.solve(alone, -system.residual(at)[..., None])[..., 0]
         at[:, :-1] += step
-        if np.abs(step).max() < _ROUNDED:
+        if np.abs(step).max() < SOLVED:
             return np.asarray(at[0])
     raise AssemblyError(
         "its links stand at a limit in this pose, which does not show how they are put together;"
@@ -563,6 +579,11 @@ def followed(system: LinkEquations) -> Followed:
         if places and tangent[-1] * places[-1].tangent[-1] < 0:
             limits.append(len(places))
         step, box = _certified(system, y, inverse, tangent, step * _GROWN)
+        if step < NO_STEP:
+            across, step = _crossed(system, y, tangent)
+            places.append(PathPlace(y, tangent, step))
+            y, towards = across, tangent
+            continue
         places.append(PathPlace(y, tangent, step))
         if len(places) > 2 and (change := _back(y, tangent, step, box, start, system.links)) is not None:
             if tangent[-1] < 0:
@@ -577,15 +598,31 @@ def _inverse(system: LinkEquations, y: Array, towards: Array) -> Array:
     bordered = np.concatenate([system.jacobian(y[None])[0], towards[None]])
     try:
         found: Array = np.linalg.inv(bordered)
-    except np.linalg.LinAlgError:
-        raise _crossing(y) from None
+    except np.linalg.LinAlgError:  # a pose at a change point, which is taken for one beside it
+        found = np.linalg.pinv(bordered)
     return found
 
 
-def _crossing(y: Array) -> AssemblyError:
-    return AssemblyError(
-        f"its links come to a change point where the input is at {math.degrees(float(y[-1])):.6g} deg:"
-        " two closures meet there; make one length longer or shorter"
+def _crossed(system: LinkEquations, y: Array, tangent: Array) -> tuple[Array, float]:
+    """Return a place of the path behind a change point, and how far it is: the smooth path goes straight on.
+
+    Two closures cross there, so no step up to it is certified. AssemblyError where nothing goes straight on.
+    """
+    for step in _ACROSS:
+        there = y + step * tangent
+        for _ in range(12):
+            inverse = _inverse(system, there, tangent)
+            move = inverse[:, :-1] @ system.residual(there[None])[0]
+            there = there - move
+            if np.abs(move).max() < SOLVED:
+                break
+        onward = inverse[:, -1] / np.linalg.norm(inverse[:, -1])
+        bent = np.abs(onward - tangent).max()
+        if np.abs(system.residual(there[None])).max() < SOLVED and bent < _BENT * step:
+            return there, step
+    raise AssemblyError(
+        f"its links come to a change point where the input is at {math.degrees(float(y[-1])):.6g} deg, from"
+        " which none of its closures goes straight on; make one length longer or shorter"
     )
 
 
@@ -601,9 +638,9 @@ def _certified(
     left = np.abs(inverse[:, :-1] @ system.residual(y[None])[0])
     second = -inverse[:, :-1] @ (system.bend(y, tangent) @ tangent)
     bent, size = np.abs(second) / 2, np.abs(tangent)
-    while step > _LEAST:
+    while step > NO_STEP:
         first = left + bent * step * step + sized @ system.third(y, size, step) * (step**3 / 6)
-        box = 1.5 * first + _ROUNDED
+        box = 1.5 * first + SOLVED
         for _ in range(_TRIES):
             needed = first + sized @ (system.change(y, size * step + box) @ box)
             if (needed <= box).all():
@@ -614,7 +651,7 @@ def _certified(
             if box.max() > 10.0:
                 break
         step /= 2
-    raise _crossing(y)
+    return 0.0, size
 
 
 def _turns_once(
@@ -648,7 +685,7 @@ def _corrected(system: LinkEquations, y: Array, inverse: Array) -> Array:
     for _ in range(30):
         step = inverse[:, :-1] @ system.residual(y[None])[0]
         y = y - step
-        if np.abs(step).max() < _ROUNDED:
+        if np.abs(step).max() < SOLVED:
             break
     return y
 
@@ -659,6 +696,7 @@ def _back(y: Array, tangent: Array, step: float, box: Array, start: Array, links
     turns = [*range(2, 3 * links, 3), len(y) - 1]
     away[turns] = np.remainder(away[turns] + math.pi, 2 * math.pi) - math.pi
     along = float(away @ tangent)
-    if not -1e-9 <= along <= step * (1 + 1e-9) or (np.abs(away - along * tangent) > box + 1e-9).any():
+    off = np.abs(away - along * tangent) - box
+    if not -SAME_POSE <= along <= step * (1 + SAME_POSE) or off.max() > SAME_POSE:
         return None
     return float(y[-1] + away[-1] - start[-1])
