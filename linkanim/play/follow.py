@@ -29,7 +29,7 @@ from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import State, with_effect
+from linkanim.player.state import Game, State, with_effect
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
@@ -183,7 +183,7 @@ _HINT = f"drag the crank pin   ← → {CONTROLS['← →'].partition(' (')[0]} 
 
 
 @frozen
-class FollowRun:
+class FollowRun(Game):
     """A run along a scene's track: how much paper has gone by, and on how much the ram kept to its lines.
 
     `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames, `counted` the frames of the
@@ -203,7 +203,6 @@ class FollowRun:
     best: int = 0
     """The best score so far, in mm."""
     is_within: bool = True
-    covers = True
 
     @property
     def words(self) -> str:
@@ -258,7 +257,7 @@ class FollowRun:
             return state
         stage: Stage = "counts" if self.stage == "ready" else self.stage
         game = replace(self, stage=stage, notch=notch, phase=phase)
-        return replace(state, game=game, clock=state.clock.go(state.frame, phase, paused=True))
+        return replace(state.with_mode(game), clock=state.clock.go(state.frame, phase, paused=True))
 
     def _begun(self, state: State) -> State:
         return begun(state, "follow", scene=self.scene, level=self.level)
@@ -273,7 +272,8 @@ class FollowRun:
         if self.stage == "counts":
             game = replace(self, counted=self.counted + 1, phase=phase)
             starts = game.counted >= _COUNTED
-            return replace(state, clock=clock, game=replace(game, stage="runs") if starts else game)
+            state = state.with_mode(replace(game, stage="runs") if starts else game)
+            return replace(state, clock=clock)
         paper = self.paper + _PAPER[self.level - 1] + min(self.frames // _FASTER_EACH, _MOST)
         track = self.track
         off = track.share(state.scene, phase) - track.at(paper / 1e3)
@@ -291,13 +291,13 @@ class FollowRun:
         if game.outside >= _SLACK or paper >= 1_000 * LENGTH:
             return game._ended(state)
         crossed = self.is_within and not within
-        return replace(with_effect(state, "sound", "wrong") if crossed else state, game=game)
+        return (with_effect(state, "sound", "wrong") if crossed else state).with_mode(game)
 
     def _ended(self, state: State) -> State:
         """Return the state with the run over, and its score as an effect."""
         kept = f"best={self.kept_as}:{self.passed // 1_000}"
         state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_whole else "wrong")
-        return replace(state, game=replace(self, stage="over", notch=0))
+        return state.with_mode(replace(self, stage="over", notch=0))
 
     @property
     def kept_as(self) -> str:

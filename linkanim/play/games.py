@@ -164,10 +164,8 @@ def begun(state: State, kind: str, **fields: object) -> State:
     return with_effect(state, "begin", str(GameWords(kind, {}).having(**fields)))
 
 
-class OverWhatRuns:
+class OverWhatRuns(Game):
     """What the menus of games and of rounds share: the bare mechanism runs on behind them."""
-
-    covers = True
 
     def entered(self, state: State) -> State:
         """Let the present mechanism run behind the menu."""

@@ -28,7 +28,7 @@ from linkanim.picture.view import Box
 from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
-from linkanim.player.state import State, with_effect
+from linkanim.player.state import Game, State, with_effect
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
@@ -310,7 +310,7 @@ _NAMES = ("how exactly", "how small", "transmission angle")
 
 
 @frozen
-class MatchGame:
+class MatchGame(Game):
     """A level with the joints as they are: after the last drag, or those of the answer (`gave_up`).
 
     `held` is the joint under the hand, `earlier` the linkages before each drag, `worth` the worth of the
@@ -324,7 +324,6 @@ class MatchGame:
     gave_up: bool = False
     held: str | None = None
     earlier: tuple[Linkage4, ...] = ()
-    covers = True
 
     @property
     def words(self) -> str:
@@ -353,7 +352,7 @@ class MatchGame:
         """Let the scores follow the hand in every third frame: during a drag nobody reads faster."""
         if self.held is None or state.frame % _READ:
             return state
-        return replace(state, game=self.judged)
+        return state.with_mode(self.judged)
 
     @property
     def judged(self) -> MatchGame:
@@ -405,7 +404,7 @@ class MatchGame:
         stand = stand._replace(**{name: getattr(self.joints, name) for name in self.of_level.fixed})
         earlier = (*self.earlier, self.joints)[-_KEPT:]
         state = replace(state, clock=state.clock.pause(state.frame, True))
-        return replace(state, game=replace(self, joints=stand, held=joint, earlier=earlier))
+        return state.with_mode(replace(self, joints=stand, held=joint, earlier=earlier))
 
     def _dragged(self, state: State, to: complex, step: float) -> State:
         """Put the held joint near a place, in whole steps; the others stay where they are."""
@@ -421,7 +420,7 @@ class MatchGame:
         """Release the joint; a better score is stored, and a full one has a sound."""
         game = self.judged
         total = sum(game.points)
-        state = replace(state, game=replace(game, held=None, best=max(self.best, total)))
+        state = state.with_mode(replace(game, held=None, best=max(self.best, total)))
         if total <= self.best:
             return state
         state = with_effect(state, "score", f"best={self.kept_as}:{total}")
@@ -543,7 +542,7 @@ def _put(state: State, game: MatchGame, joints: Linkage4) -> State:
     except LinkanimError:
         return state
     clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed).go(state.frame, phase, paused=True)
-    return replace(state, game=game, scene=scene, clock=clock, home=_home(game))
+    return replace(state.with_mode(game), scene=scene, clock=clock, home=_home(game))
 
 
 def _scene_of(game: MatchGame) -> tuple[Scene, float]:

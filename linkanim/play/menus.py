@@ -29,7 +29,7 @@ from linkanim.player.building import build, left
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import carry, drop, grab
 from linkanim.player.pencil import pencil
-from linkanim.player.state import State, with_effect, with_toast
+from linkanim.player.state import Game, State, with_effect, with_toast
 from linkanim.scenes import chapters, load, names
 from linkanim.units import shown
 
@@ -63,13 +63,13 @@ class Menu(OverWhatRuns):
             return begun(state, "lobby")
         if action.name == "turn" and isinstance(action.value, int):
             level = min(max(self.level + (1 if action.value > 0 else -1), LEVELS[0]), LEVELS[-1])
-            return replace(state, game=replace(self, level=level))
+            return state.with_mode(replace(self, level=level))
         if (action.name, action.value) == ("option", len(rows)):
-            return replace(state, game=replace(self, level=self.level % LEVELS[-1] + 1))
+            return state.with_mode(replace(self, level=self.level % LEVELS[-1] + 1))
         chosen = chosen_by(action, rows.index(self.chapter), len(rows))
         if chosen is None:
             return state
-        state = replace(state, game=replace(self, chapter=rows[chosen.row]))
+        state = state.with_mode(replace(self, chapter=rows[chosen.row]))
         return begun(state, "predict", chapter=rows[chosen.row], level=self.level) if chosen.taken else state
 
     def _rows(self, state: State) -> tuple[str, ...]:
@@ -145,7 +145,7 @@ class Lobby(OverWhatRuns):
         chosen = chosen_by(action, self.row, len(OFFERS))
         if chosen is None:
             return state
-        state = replace(state, game=replace(self, row=chosen.row))
+        state = state.with_mode(replace(self, row=chosen.row))
         return begun(state, OFFERS[chosen.row].name) if chosen.taken else state
 
     def shown(self, state: State, over: Overlay) -> Overlay:
@@ -180,7 +180,7 @@ _HELD: Mapping[str, Callable[[State, Any], State]] = {"grab": grab, "carry": car
 
 
 @frozen
-class Title:
+class Title(Game):
     """The title: the door that any key takes, and the place on the shelf of the mechanism that runs.
 
     Without a place it is that of the mechanism to which the first door leads.
@@ -188,7 +188,7 @@ class Title:
 
     door: int
     place: int | None
-    covers = False
+    covers, leads = False, True
 
     @property
     def words(self) -> str:
@@ -201,7 +201,7 @@ class Title:
         place = state.place if self.place is None else self.place
         entry = state.shelf[place % len(state.shelf)]
         scene = load(entry) if isinstance(entry, str) else entry
-        return with_scene(replace(state, look=shown, game=replace(self, place=place)), scene)
+        return with_scene(replace(state.with_mode(replace(self, place=place)), look=shown), scene)
 
     def carried(self, state: State, action: Action) -> State:
         """Go through a door, or choose one."""
@@ -216,14 +216,14 @@ class Title:
         if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):
             return state
         door, taken = chosen_by(action, self.door, len(DOORS)) or (self.door, True)
-        return _through(state, door) if taken else replace(state, game=replace(self, door=door))
+        return _through(state, door) if taken else state.with_mode(replace(self, door=door))
 
     def aged(self, state: State) -> State:
         """Go on to the next mechanism when one has run for a while."""
         if state.arrived is None or state.frame - state.arrived < EACH or state.grasp:
             return state
         further = replace(self, place=((self.place or 0) + 1) % len(state.shelf))
-        return further.entered(replace(state, game=further))
+        return further.entered(state.with_mode(further))
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the name and the doors."""

@@ -19,7 +19,7 @@ from linkanim.play.quiz import next_question, pose_words, question_of
 from linkanim.player.action import Action
 from linkanim.player.actions import with_scene
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import State, proved, with_effect
+from linkanim.player.state import Game, State, proved, with_effect
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
@@ -56,7 +56,7 @@ class GivenAnswer(NamedTuple):
 
 
 @frozen
-class Predict:
+class Predict(Game):
     """A round about a chapter's scenes, at a level; questions missed in earlier rounds, `again`, come first.
 
     `question` is asked since frame `since`, and is None at the end; `chosen` is the answer taken, `coming`
@@ -73,7 +73,6 @@ class Predict:
     chosen: int | None = None
     coming: tuple[QuizQuestion, Scene] | None = None
     best: int = 0
-    covers = True
 
     @property
     def words(self) -> str:
@@ -127,13 +126,13 @@ class Predict:
     def entered(self, state: State) -> State:
         """Ask the next question, or say at the end how it went."""
         if self.is_over:
-            return replace(state, game=replace(self, question=None, chosen=None, since=state.frame))
+            return state.with_mode(replace(self, question=None, chosen=None, since=state.frame))
         question, scene = self.coming or self._next()
         state = replace(state, look=replace(_BARE, names=question.names, theme=state.look.theme))
         state = with_scene(state, scene, question.phase, paused=True)
         game = replace(self, question=question, chosen=None, coming=None, since=state.frame)
         places = tuple(complex(*one.place) for one in question.answers if one.place)
-        return replace(state, game=game, also=places)
+        return replace(state.with_mode(game), also=places)
 
     def _next(self) -> tuple[QuizQuestion, Scene]:
         """Return the next question, and its scene, which has arrows where they explain the answer."""
@@ -194,7 +193,8 @@ class Predict:
         done = (*self.done, GivenAnswer(question.question_id, right, state.frame - self.since))
         look = replace(question.shows, hud=False, trace=False, theme=state.look.theme)
         look = replace(look, zoom=state.look.zoom, pan=state.look.pan)
-        state = replace(state, look=look, game=replace(self, done=done, chosen=chosen, since=state.frame))
+        game = replace(self, done=done, chosen=chosen, since=state.frame)
+        state = replace(state.with_mode(game), look=look)
         state = with_effect(state, "sound", "right" if right else "wrong")
         again = self._comes_again if len(self.done) >= COUNT else None
         about = question.question_id if again is None else self.missed[again[0]]
@@ -212,7 +212,8 @@ class Predict:
             return state
         gone = state.frame - self.since
         if gone == _HOLD // 2 and not self.is_over:
-            return replace(state, game=replace(self, coming=self._next()))  # made while the picture is still
+            # made while the picture is still
+            return state.with_mode(replace(self, coming=self._next()))
         if gone < _HOLD:
             return state
         if self._runs:

@@ -313,7 +313,7 @@ def play(state: State, words: str) -> State:
     bare = replace(state, modes=(), glide=None, home=None, toast=None)
     bare = replace(bare, also=(), place_typed="", chip=None)
     editing = Editing()
-    return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
+    return game.entered(replace(bare, editing=editing, help=False, faded=state.frame).with_mode(game))
 
 
 def leave(state: State) -> State:
@@ -326,7 +326,8 @@ def leave(state: State) -> State:
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
     resumed = replace(resumed, kiosk=state.kiosk, take=state.take)
-    resumed = replace(resumed, modes=(*under.modes, *state.unlisted.modes))
+    above = (one for one in state.unlisted.modes if not isinstance(one, Game))
+    resumed = replace(resumed, modes=(*under.modes, *above))
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -537,7 +538,7 @@ def aged(state: State) -> State:
     over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     for mode in state.modes:
-        state = mode.aged(state)
+        state = state if mode is state.game else mode.aged(state)
     if state.glide:
         state = _tried(state, Action("glide"), _followed, lambda before: replace(before, glide=None))
     return _tried(state, Action("play"), state.game.aged, leave) if state.game else state
@@ -550,7 +551,7 @@ def carried(state: State, action: Action) -> State:
         if state.by_itself:
             return leave(state)
     own = {name: rule for mode in state.modes for name, rule in mode.actions.items()}
-    beside = BESIDE | _SHEETS | {*own, *(["back"] if own else [])}
+    beside = BESIDE | _SHEETS | {*own, *([] if state.top is state.game else ["back"])}
     if state.game and action.name not in beside:
         return _in_a_game(state, state.game, action)
     rule = own.get(action.name) or ACTIONS[action.name]

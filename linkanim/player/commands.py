@@ -69,11 +69,7 @@ _IN_A_LESSON = {
 """What stands in the place of other buttons in a lesson."""
 BUILD_ON_BAR = BarEntry("build", Action("build_on"), 12)
 """Beside the list of dimensions, the tools work on the linkage that is shown."""
-_HANDLES: Mapping[str, tuple[BarEntry, ...]] = {
-    "play": (HOME_BAR._replace(rank=0), *_SCENE),
-    "paused": (HOME_BAR._replace(rank=0), *_SCENE),
-    "game": (BACK_BAR, HOME_BAR, *LAST_BAR),
-}
+_BARE = (HOME_BAR._replace(rank=0), *_SCENE)
 
 
 def bar(state: State, pointed: int | None = None) -> CommandBar | None:
@@ -102,7 +98,7 @@ def _entries(state: State) -> tuple[BarEntry, ...]:
         return tuple(_IN_A_LESSON.get(one.icon, one) for one in LISTED_BAR)
     if state.constructed and state.mode in ("play", "paused"):
         return tuple(_CONSTRUCTED.get(one.icon, one) for one in LISTED_BAR)
-    return state.top.bar if state.top else _HANDLES[state.mode]
+    return state.top.bar if state.top else _BARE
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:

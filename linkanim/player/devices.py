@@ -399,9 +399,7 @@ class Mouse:
         top = screen.state.top
         if top and (found := top.mouse(gesture, self, screen)) is not None:
             return found
-        in_game = screen.state.mode == "game"
-        found = self._in_a_game(gesture, screen) if in_game else None
-        return self._on_the_picture(gesture, screen) if found is None else found
+        return self._on_the_picture(gesture, screen)
 
     def _menu(self, screen: Screen) -> tuple[Action, ...]:
         """Return the action that opens the list for what is under the mouse, or for all, or closes it."""
@@ -525,19 +523,6 @@ class Mouse:
         found = screen.pointed(*self.at, NEAR_HAND * screen.size[1]) if self.drag is None else None
         return found.thing.name if found and found.thing and found.thing.kind == "row" else None
 
-    def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return the actions of a click in a game: the answer that is there, else to go on.
-
-        The crank pin is dragged as without a game.
-        """
-        if gesture.kind != "down" or self.drag is not None:
-            return None
-        option = screen.option_at(*self.at)
-        at_joint = screen.handle_at(*self.at, REACH * screen.size[1]) is not None
-        if option is None and (screen.over.handles or at_joint or self._is_at_pin(screen)):
-            return None
-        return (Action("next") if option is None else Action("option", option),)
-
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list under the mouse; None before the mouse was seen."""
         if not self._seen or self.drag not in (None, "row") or screen.over.shelf:
@@ -553,7 +538,7 @@ class Mouse:
         on_a_list = self.drag is None and screen.row_at(*self.at) is not None
         if on_a_list or not (screen.state.leads or screen.state.mode in ("edit", "game")):
             return None
-        at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
+        at_pin = screen.state.scene.linkage.drive.joint if self.is_at_pin(screen) else None
         return screen.handle_at(*self.at, REACH * screen.size[1]) or at_pin
 
     def over_scene(self, screen: Screen, frame: int) -> Pointed | None:
@@ -564,7 +549,8 @@ class Mouse:
             return None
         return screen.pointed(*self.at, NEAR_HAND * screen.size[1])
 
-    def _is_at_pin(self, screen: Screen) -> bool:
+    def is_at_pin(self, screen: Screen) -> bool:
+        """Return whether the mouse is at the crank's pin."""
         pin = screen.crank_pin()
         return max(abs(self.at[0] - pin[0]), abs(self.at[1] - pin[1])) <= REACH * screen.size[1]
 
@@ -588,7 +574,7 @@ class Mouse:
         return (Action("slide", screen.slid(self.at[0])),) if gesture.kind in ("down", "move") else ()
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
-        if self._is_at_pin(screen):
+        if self.is_at_pin(screen):
             return "crank"
         return "pan" if screen.charted(*self.at) is None else "chart"
 

@@ -279,7 +279,7 @@ LIST_KEYS = (
     KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )
 """The meaning of keys in the list of dimensions, of a scene or on a sheet."""
-_IN_A_MODE: Table = {
+_LESSON_TABLE: Table = {
     "in a lesson": (
         KeyRow(
             "← →, PgUp, PgDn",
@@ -294,6 +294,9 @@ _IN_A_MODE: Table = {
         ),
         KeyRow("Esc", "leave the lesson; PgDn goes on with it", on("escape", "back")),
     ),
+}
+"""The meaning of keys in a lesson."""
+GAME_TABLE: Table = {
     "in a game": (
         KeyRow("1–9, click", "choose an answer or a door", digits("option")),
         KeyRow("Enter, Space", "go on", on("return kp_enter space", "next")),
@@ -302,7 +305,7 @@ _IN_A_MODE: Table = {
         KeyRow("Esc", "out of it", ()),
     ),
 }
-"""The meaning of keys in a mode, by its subject; it takes precedence over their usual meaning."""
+"""The meaning of keys in a game."""
 
 
 class BarEntry(NamedTuple):
@@ -353,7 +356,7 @@ class ModeKeys:
     """The keys of a mode by subject, which take precedence over their usual meaning; how print is typed.
 
     While a mode is on that is `alone`, of one line or dialog, no other keys mean anything. Some commands have
-    other `names` in it.
+    other `names` in it, and any other letter may mean one of them.
     """
 
     name: str
@@ -361,6 +364,7 @@ class ModeKeys:
     typed: TypedKeys | None = None
     alone: bool = False
     names: Mapping[Action, str] = field(default_factory=dict)
+    others: Action | None = None
 
     @property
     def binds(self) -> Iterator[Bind]:
@@ -374,8 +378,7 @@ RUNNING = ModeKeys("play", typed=_ANGLE)
 OF_MODES: tuple[ModeKeys, ...] = (
     RUNNING,
     ModeKeys("paused", typed=_ANGLE),
-    ModeKeys("lesson", {"in a lesson": _IN_A_MODE["in a lesson"]}, _ANGLE),
-    ModeKeys("game", {"in a game": _IN_A_MODE["in a game"]}, names={Action("back"): "out of it"}),
+    ModeKeys("lesson", _LESSON_TABLE, _ANGLE),
 )
 
 
@@ -401,10 +404,7 @@ def bind_of(
         return Bind(press.key, Action(mode.typed.action, press.text), repeats=True)
     tables = (mode.table, {} if mode.alone else KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
-    # in a game any other letter means "next", as the title's "any key" promises
-    others = (
-        Bind(press.key, Action("next")) if mode.name == "game" and press.text and not press.ctrl else None
-    )
+    others = Bind(press.key, mode.others) if mode.others and press.text and not press.ctrl else None
     return next(found, others)
 
 

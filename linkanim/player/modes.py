@@ -15,7 +15,7 @@ from linkanim.player.naming import Naming
 from linkanim.player.pencil import Pencil
 from linkanim.player.posing import Posing
 from linkanim.player.shelving import OpenShelf
-from linkanim.player.state import Mode, Resolver
+from linkanim.player.state import Game, Mode, Resolver
 from linkanim.player.taking import TakeDialog
 
 MODES: tuple[type[Mode], ...] = (
@@ -28,6 +28,7 @@ MODES: tuple[type[Mode], ...] = (
     Pencil,
     Posing,
     Layering,
+    Game,
     Naming,
     TakeDialog,
     CaptionLine,

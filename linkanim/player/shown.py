@@ -295,7 +295,7 @@ def lasting(state: State) -> Overlay:
 
 def _lasting(state: State, over: Hover | None = None) -> Overlay:
     found = Overlay(
-        paused=_stands(state) and not (state.game or state.building),
+        paused=_stands(state) and not state.game,
         noted=True,
         recording=_recording(state),
         help=help_groups(state.keys, pad=state.pad) if state.help else None,
@@ -303,7 +303,6 @@ def _lasting(state: State, over: Hover | None = None) -> Overlay:
         slider=_slider(state),
         hover=over,
     )
-    found = state.game.shown(state, found) if state.game else found
     for mode in state.modes:
         found = mode.shown(state, found)
     return replace(found, hover=None)

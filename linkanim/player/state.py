@@ -15,7 +15,7 @@ from dataclasses import field, replace
 from functools import cached_property
 from math import dist, fmod
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,15 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.view import Box, eased
 from linkanim.player.action import Action, Value
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
-from linkanim.player.keys import OF_MODES, BarEntry, ModeKeys
+from linkanim.player.keys import (
+    BACK_BAR,
+    GAME_TABLE,
+    HOME_BAR,
+    LAST_BAR,
+    OF_MODES,
+    BarEntry,
+    ModeKeys,
+)
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_unit, passing
 from linkanim.scenes.form import Key
@@ -397,7 +405,8 @@ class Mode:
     Modes are frozen values on the state's stack `modes`; equal ones look the same. Keys, mouse and Esc are
     for the last of them, and so are its `actions`, even over a game. `meanings` say what actions ask that
     depend on what is visible, or outside. One that `is_listed` takes the room of a list; one that
-    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input. One that
+    `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input; Esc
+    closes one that `covers`. One that
     `has_head` has words above the linkage. One may have tools at the
     edge, and a `pointer` of its own.
     """
@@ -409,6 +418,7 @@ class Mode:
     is_listed: ClassVar[bool] = False
     gives_way: ClassVar[bool] = False
     leads: ClassVar[bool] = False
+    covers: ClassVar[bool] = True
     has_head: ClassVar[bool] = False
     has_tools: ClassVar[bool] = False
     is_sheet: ClassVar[bool] = False
@@ -772,32 +782,44 @@ class Edited(NamedTuple):
     editing: Editing
 
 
-class Game(Protocol):
-    """A running game, or the title: a frozen value to which the state hands its actions.
+class Game(Mode, ABC):
+    """A running game, or the title, over the state `beneath`: it answers the state's actions.
 
-    Equal games look the same. A game that needs something from outside, such as a seed, leaves an effect:
-    "begin" with the words of another game, "score" with a result to be kept.
+    A game that needs something from outside, such as a seed, leaves an effect: "begin" with the words of
+    another game, "score" with a result to be kept.
     """
 
+    keys = ModeKeys("game", GAME_TABLE, names={Action("back"): "out of it"}, others=Action("next"))
+    bar = (BACK_BAR, HOME_BAR, *LAST_BAR)
+    actions: ClassVar[Mapping[str, Rule]] = {}
+    is_listed = True
+
     @property
+    @abstractmethod
     def words(self) -> str:
         """The words that begin an equal game: its kind, then its parameters."""
 
-    @property
-    def covers(self) -> bool:
-        """Whether Esc leaves the game."""
-
+    @abstractmethod
     def entered(self, state: State) -> State:
         """Return the state as the game begins, which is the state's game already."""
 
+    @abstractmethod
     def carried(self, state: State, action: Action) -> State:
         """Return the state with an action carried out; unchanged where the game has no use for it."""
 
-    def aged(self, state: State) -> State:
-        """Return the state, which is a frame older already, with the effect of time on the game."""
+    def closed(self, state: State) -> State:
+        """Return the state after Esc or the back arrow, which the game answers."""
+        return self.carried(state, Action("back"))
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the game's own parts."""
+    def mouse(self, gesture: Any, mouse: Any, screen: Any) -> tuple[Action, ...] | None:
+        """Return the actions of a click: the answer that is there, else to go on; None on a joint to drag."""
+        if gesture.kind != "down" or mouse.drag is not None:
+            return None
+        option = screen.option_at(*mouse.at)
+        at_joint = screen.handle_at(*mouse.at, REACH * screen.size[1]) is not None
+        if option is None and (screen.over.handles or at_joint or mouse.is_at_pin(screen)):
+            return None
+        return (Action("next") if option is None else Action("option", option),)
 
 
 @frozen
@@ -810,8 +832,8 @@ class State:
 
     `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
     `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
-    travel, that is being typed while paused. `modes` are open one on another. `game` is the running game,
-    over the state `beneath`, and `games` reads a game from its words. Recordings are made as `take` says.
+    travel, that is being typed while paused. `modes` are open one on another. `beneath` is the state under
+    a running game, and `games` reads a game from its words. Recordings are made as `take` says.
     `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether
     a gamepad is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted
     scene, `also` are places that it keeps in sight beside that. `sounds` says whether the motion is heard,
@@ -846,7 +868,6 @@ class State:
     kept: tuple[Edited, ...] = ()
     sheet: BuildSheet | None = None
     construction: tuple[Scene, int] | None = None
-    game: Game | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
     glide: Glide | Changeover | None = None
@@ -919,8 +940,6 @@ class State:
         """What the keys are for, in a word."""
         if self.top:
             return self.top.keys.name
-        if self.game:
-            return "game"
         return "paused" if self.clock.paused else "play"
 
     @property
@@ -943,6 +962,11 @@ class State:
     def posing(self) -> PoseSketch | None:
         """The poses that were set down."""
         return self.of(PoseSketch)
+
+    @property
+    def game(self) -> Game | None:
+        """The running game, or the title."""
+        return self.of(Game)  # type: ignore[type-abstract]
 
     @property
     def building(self) -> BuildSheet | None:
@@ -970,8 +994,7 @@ class State:
     @property
     def leads(self) -> bool:
         """Whether a hand on a joint drags the input: while a mechanism is shown, and on the title."""
-        on_title = self.mode == "game" and self.game is not None and not self.game.covers
-        return on_title or (self.top.leads if self.top else self.mode in ("play", "paused"))
+        return self.top.leads if self.top else True
 
     @property
     def saved_as(self) -> str | None:
@@ -989,15 +1012,12 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
-        if self.game and not (self.help or self.modes):
-            return self.game.covers
-        return self.help or self.mode not in ("play", "paused") or self.constructed > 0
+        return self.help or (self.top.covers if self.top else self.constructed > 0)
 
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        is_list = any(one.is_listed for one in self.modes)
-        return is_list or self.game is not None
+        return any(one.is_listed for one in self.modes)
 
     @property
     def typing(self) -> bool:
