@@ -99,35 +99,44 @@ class LinkageForm:
         `lengths` are arrays (N,), as is `phases`. What has no pose is NaN. The layout is None where none
         was solved.
         """
-        programs, count = self.programs.setdefault(derivatives, []), len(phases)
-        found: tuple[ResultLayout | None, Array] = None, np.empty((0, count))
-        left, rows, n = np.zeros(count, dtype=bool), np.arange(count), 0
+        programs = self.programs.setdefault(derivatives, [])
+        places: ResultLayout | None = None
+        whole, left = np.empty((0, len(phases))), np.zeros(len(phases), dtype=bool)
+        rows, n = np.arange(len(phases)), 0
         while self.uniform and len(rows) and n < MOST:
-            given = [one[rows] for one in (*lengths, phases)] if len(rows) < count else [*lengths, phases]
+            given = [one[rows] for one in (*lengths, phases)] if n else [*lengths, phases]
             new = n == len(programs)
             if new:
-                programs.append(recorded(self, [float(length[0]) for length in given[:-1]], derivatives))
+                programs.append(recorded(self, [float(one[0]) for one in given[:-1]], derivatives))
             program, n = programs[n], n + 1
             with np.errstate(all="ignore"):
                 results = program.run(*given, *rates)
+                if n == 1 and program.places and not program.sines and results[-1].min() >= 0:
+                    return program.places, results, left
                 right = results[-1] >= 0
-                clear = right
-                if program.sines is not None and right.any():
-                    clear = right & program.clear(given[:-1])
+                alone = right & ~program.clear(given[:-1]) if program.sines and right.any() else None
             if program.places is None:
                 left[rows[right]] = not program.apart
-            elif len(rows) == count and clear.all():
-                return program.places, results, left
             else:
-                if found[0] is None:
-                    found = program.places, np.full((len(results), count), np.nan)
-                found[1][:, rows[clear]] = results[:, clear]
-                left[rows[right & ~clear]] = True
-            right[0] |= new  # where not even the sample is like itself
-            left[rows[:1]] |= new & (results[-1, :1] < 0)
+                if places is None:
+                    places, whole = (
+                        program.places,
+                        results if n == 1 else np.full((len(results), len(phases)), np.nan),
+                    )
+                if n > 1:
+                    whole[:, rows[right]] = results[:, right]
+                if alone is not None:
+                    left[rows[alone]] = True
+            if right.all():
+                break
+            if new and not right[0]:  # not even the sample is like itself
+                left[rows[0]] = right[0] = True
             rows = rows[~right]
-        left[rows] = True
-        return *found, left
+            if n == 1:
+                whole[:, rows] = np.nan
+        else:
+            left[rows] = True
+        return places, whole, left
 
 
 def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Program:

@@ -34,10 +34,11 @@ EQUAL_LINKS = 1e-15
 """Share of its length within which a link is told to be as long as another."""
 PARALLEL = 1e-6
 """Share of the ground by which the coupler of a parallelogram may be off it."""
-CLOSE = 2.0**-5
-"""Share of the perimeter below which a gap between lengths needs all digits of these."""
+CLOSE = 2.0**-8
+"""Share of the perimeter's square below which the least U or W needs all digits of the lengths: beside a
+larger one, rounded as it is, bars in one line are right to some last digits."""
 CLOSEST = 2.0**-44
-"""Share of the perimeter below which a gap between lengths is none."""
+"""The same share below which it is none: the lengths may be those of a change point."""
 
 
 # Margins and factors of a dyad, as shares of their greatest value: what is none, or has no digits.

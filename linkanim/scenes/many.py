@@ -31,8 +31,8 @@ from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene, check_derivatives, given_numbers
 from linkanim.units import shown
 
-LARGEST = 1e30
-"""Beyond it, and below its inverse, lengths are read by themselves, as a file's are."""
+SMALLEST = 1e-30
+"""A smaller length is read by itself, as a file's is: it is none, or refused."""
 LINEAR = 1e-12
 """Share of a linkage's extent by which a length may miss the straight line through two others."""
 Columns = Mapping[str, Array]
@@ -104,9 +104,8 @@ def solve_many(
     form = _form(scene, tuple(number.key for number in chosen))
     places, results, left = form.solved(rows, phases, (w, a), derivatives)
     for number, row in zip(chosen, rows, strict=True):
-        least = 1 / LARGEST if number.type.measure == "length" else -LARGEST
-        if not (row.min() > least and row.max() < LARGEST):
-            left |= ~((row > least) & (row < LARGEST))
+        if number.type.measure == "length" and not row.min() > SMALLEST:
+            left |= ~(row > SMALLEST)
     pose = partial(Scene.pose, derivatives=derivatives, speed=w, acceleration=a)
     if places is None:
         places = _layout_of(pose(scene, 0.0), derivatives)

@@ -9,7 +9,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from enum import Enum
@@ -234,29 +234,30 @@ def _unless(touching: bool, most: Fraction) -> float:
 # last digits of a change point. Where a gap is a small share of the lengths in it, what rounding takes from
 # their sums is added.
 
-Gap = tuple[tuple[Value, Value], tuple[Value, Value]]
-"""Two lengths, and two whose sum is to be taken from that of the first."""
-
 
 class Unlike(Exception):
     """A linkage that is solved by itself, not with others of its form."""
 
 
-def _gaps(ample: Value, least: Value, *pairs: Gap) -> tuple[bool, list[Value]]:
-    """Return whether all gaps are larger than `ample`, and the gaps; Unlike where one is below `least`."""
-    plain = [(a + b) - (c + d) for (a, b), (c, d) in pairs]
-    if ample < _smallest(plain):
-        return True, plain
-    sums = [(two_sum(*one), two_sum(*other)) for one, other in pairs]
-    exact = [(one[0] - other[0]) + (one[1] - other[1]) for one, other in sums]
-    if not least < _smallest(exact):
-        raise Unlike
-    return False, exact
+def _gap(one: tuple[Value, Value], other: tuple[Value, Value], *, exact: bool) -> Value:
+    """Return the difference of two sums of two lengths each; `exact` with what rounding takes from them."""
+    if not exact:
+        return (one[0] - other[0]) + (one[1] - other[1])
+    (total, lost), (taken, lost_too) = two_sum(*one), two_sum(*other)
+    gap: Value = (total - taken) + (lost - lost_too)
+    return gap
 
 
-def _smallest(gaps: Sequence[Value]) -> Value:
-    """Return the size of the smallest gap, each being on the side of zero on which that of the sample is."""
-    return reduce(minimum, [gap if known(gap) > 0 else -gap for gap in gaps])
+def _sized(leasts: Callable[[bool], list[Value]], ample: Value, least: Value) -> tuple[bool, list[Value]]:
+    """Return the least values of factors, from rounded gaps where these are larger than `ample`, and whether.
+
+    Otherwise they are made of exact gaps; Unlike where one of them is smaller than `least`.
+    """
+    for exact, size in ((False, ample), (True, least)):
+        found = leasts(exact)
+        if size < reduce(minimum, [one if known(one) > 0 else -one for one in found]):
+            return not exact, found
+    raise Unlike
 
 
 def _of_inputs(least: Value, most: Value) -> Factor:
@@ -272,35 +273,47 @@ def _four_bar_of_inputs(ground: Value, crank: Value, bars: tuple[Value, Value], 
     g, r, a, b = ground, crank, *bars
     both, others, apart, unlike = a + b, g + r, g - r, a - b
     perimeter = both + others
-    pairs = ((a, b), (g, r)), ((g, b), (a, r)), ((g, a), (b, r))
-    ample, (stretched, inner, outer) = _gaps(perimeter * CLOSE, perimeter * CLOSEST, *pairs)
-    u_least, w_least = stretched * perimeter, inner * outer
-    plain = known(u_least) > 0 and known(w_least) > 0
+
+    def leasts(exact: bool) -> list[Value]:
+        pairs = ((a, b), (g, r)), ((g, b), (a, r)), ((g, a), (b, r))
+        stretched, inner, outer = (_gap(*pair, exact=exact) for pair in pairs)
+        return [stretched * perimeter, inner * outer]
+
+    square = perimeter * perimeter
+    ample, least = _sized(leasts, square * CLOSE, square * CLOSEST)
+    plain = all(known(one) > 0 for one in least)
     spread, unit = (2.0 * r, 2.0 * g) if plain else (1.0, 4.0 * g * r)
-    least = over(u_least, unit), over(w_least, unit)
+    u_least, w_least = (over(one, unit) for one in least)
     if plain:
-        u, w = (_of_inputs(one, one + spread) for one in least)
+        factors = _of_inputs(u_least, u_least + spread), _of_inputs(w_least, w_least + spread)
     else:
-        u = _of_inputs(least[0], over((both - apart) * (both + apart), unit))
-        w = _of_inputs(least[1], over((others - unlike) * (others + unlike), unit))
-    return LoopRoot(spread, u, w, reference, unit, ample)
+        u = _of_inputs(u_least, over((both - apart) * (both + apart), unit))
+        factors = u, _of_inputs(w_least, over((others - unlike) * (others + unlike), unit))
+    return LoopRoot(spread, *factors, reference, unit, ample)
 
 
 def _slider_of_inputs(crank: Value, rod: Value, eccentricity: Value, reference: Sum) -> LoopRoot:
     """Return the root of a slider as `slider_root` does."""
     r, b, e = crank, rod, eccentricity
-    pairs = ((b, 0.0), (e, r)), ((b, e), (r, 0.0))
-    ample, (u, w) = _gaps(r * (2 * WIDE), (b + r) * CLOSEST, *pairs)
-    factors = _of_inputs(u, (b - e) + r), _of_inputs(w, (b + e) + r)
-    return LoopRoot(2.0 * r, *factors, reference, ample=ample)
+
+    def leasts(exact: bool) -> list[Value]:
+        return [_gap((b, 0.0), (r, one), exact=exact) for one in (e, -e)]
+
+    ample, (u, w) = _sized(leasts, r * (2 * WIDE), (b + r) * CLOSEST)
+    return LoopRoot(2.0 * r, _of_inputs(u, (b - e) + r), _of_inputs(w, (b + e) + r), reference, ample=ample)
 
 
 def _slot_of_inputs(ground: Value, crank: Value, offset: Value, reference: Sum) -> LoopRoot:
     """Return the root of a slot as `slot_root` does."""
     g, r, o = ground, crank, offset
-    pairs = ((g, 0.0), (r, o)), ((g, o), (r, 0.0))
-    _, (inner, outer) = _gaps((g + r) * CLOSE, (g + r) * CLOSEST, *pairs)
-    only = _of_inputs(inner * outer, ((g + r) - o) * ((g + r) + o))
+
+    def leasts(exact: bool) -> list[Value]:
+        inner, outer = (_gap((g, 0.0), (r, one), exact=exact) for one in (o, -o))
+        return [inner * outer]
+
+    square = (g + r) * (g + r)
+    _, (least,) = _sized(leasts, square * CLOSE, square * CLOSEST)
+    only = _of_inputs(least, ((g + r) - o) * ((g + r) + o))
     return LoopRoot(4.0 * g * r, ALWAYS, only, reference, ample=True)
 
 
