@@ -86,22 +86,38 @@ def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
         yield Layer(ORANGE, [middle + disc(reach * setting.gauge.bar)], alpha)
 
 
-def spots(setting: DrawSetting, shown: Sequence[Spot]) -> Iterator[tuple[list[Layer], Caption]]:
-    """Yield the marks of answers' places: a ring, and beside it, off the others, the key on a disc."""
+def spots(setting: DrawSetting, shown: Sequence[Spot], pose: Pose) -> Iterator[tuple[list[Layer], Caption]]:
+    """Yield the marks of answers' places: a ring, and beside it, off joints and others, the key on a disc."""
     theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
     places = [setting.view.place(spot.at) for spot in shown]
-    middle = sum(places) / max(len(places), 1)
+    joints = [setting.view.place(pose.position[name]) for name in setting.figure.shown]
+    taken = [*places, *joints]
     for spot, at in zip(shown, places, strict=True):
         colour = mood_colour(theme, spot.mood)
         ink = theme.velocity if spot.mood == "" else colour
-        off = unit(at - middle) if abs(at - middle) > 1 else -1j
-        disc_at = _inside(layout.stage, at + 1.7 * size * off, 1.6 * size, 1.6 * size)
+        disc_at = _off(at, taken, layout.stage, size)
+        off = unit(disc_at - at)
+        taken.append(disc_at)
         ring = stroke(at + disc(0.55 * size), 0.13 * size, closed=True)
         lead = segments([at + 0.55 * size * off], [disc_at], 0.1 * size)
         rim, inner = disc_at + disc(0.8 * size), disc_at + disc(0.68 * size)
         layers = [Layer(ink, [*ring, *lead]), Layer(ink, [rim]), Layer(theme.panel, [inner])]
         words = Caption(spot.key, (disc_at.real, disc_at.imag - 0.5 * size), size, ink, "centre", strong=True)
         yield layers, words
+
+
+def _off(at: complex, taken: Sequence[complex], stage: Rect, size: float) -> complex:
+    """Return where a disc stands beside a place: farthest off what is there already, near before far."""
+    turns = np.exp(1j * np.linspace(0, 2 * np.pi, _TURNS, endpoint=False))
+    tries = [_inside(stage, at + far * size * turn, 1.6 * size, 1.6 * size) for far in _FAR for turn in turns]
+    clear = [min(_CLEAR * size, *(abs(one - other) for other in taken)) for one in tries]
+    return tries[int(np.argmax(np.round(np.array(clear) / size, 2)))]
+
+
+_FAR, _TURNS = (1.7, 2.3, 3.0), 16
+"""How far off its place the disc of an answer's key may stand, in heights of its letter, and which ways."""
+_CLEAR = 1.6
+"""How far a disc is off all else to be clear of it, in the same."""
 
 
 def grip(foot: complex, unit_: float, theme: Theme) -> list[Layer]:

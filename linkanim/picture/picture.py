@@ -505,7 +505,7 @@ class Picture:
             yield from self._within([Group("handles", marks, over=True)])
         if overlay.poses:
             yield from self._posed(overlay)
-        for layers, words in spots(self.drawing.setting, overlay.spots):
+        for layers, words in spots(self.drawing.setting, overlay.spots, pose):
             yield Group("spot", layers, [words], over=True)
         if overlay.glow:  # the joint and the length that it changes do not overlap: they are filled together
             light = list(glow(self.drawing.setting, pose, overlay.glow))

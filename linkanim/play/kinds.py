@@ -670,7 +670,6 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
         shuffled=True,
         shows=Look(names=1, chart=_rate_of(body)),
         stops=exact[right],
-        names=0,  # with names a guide would show its dead centres
     )
 
 

@@ -19,7 +19,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import png_bytes
 from linkanim.play.question import QuizAnswer, QuizQuestion
-from linkanim.play.quiz import LETTERS, answer_text, curve_png, pose_words, question_figure
+from linkanim.play.quiz import LETTERS, answer_text, curve_png, figure_words, question_figure
 
 Rounds = Mapping[str, Sequence[QuizQuestion]]
 """Questions by the name of their chapter."""
@@ -73,7 +73,7 @@ class _Posed(NamedTuple):
 
     def text(self, source: Callable[[_Picture], str]) -> str:
         """Return the question, the figure and where the input is, as HTML."""
-        words = escape(pose_words(self.question))
+        words = escape(figure_words(self.question))
         return f"<p>{escape(self.question.text)}</p><p>{_image(self.figure, source)}</p><p>{words}</p>"
 
     def answer(self, number: int, source: Callable[[_Picture], str]) -> str:
@@ -288,7 +288,7 @@ def _asked(rounds: Rounds, progress: Callable[[int, int], None]) -> Iterator[tup
 def _drawn(question: QuizQuestion, number: int) -> _Posed:
     ident = f"q{number}x{sha256(str(question.question_id).encode()).hexdigest()[:12]}"
     shown = question_figure(question)
-    figure = _Picture(f"{ident}.png", png_bytes(shown.surface()), f"{pose_words(question)}.", shown.size[0])
+    figure = _Picture(f"{ident}.png", png_bytes(shown.surface()), f"{figure_words(question)}.", shown.size[0])
     curves = (
         _Picture(f"{ident}{letter}.png", curve_png(one.curve), f"{one.text} over one period", 160)
         for letter, one in zip(LETTERS, question.answers, strict=False)

@@ -41,7 +41,7 @@ _SWEEP, _WIDE = 4 * FRAMES_PER_SECOND, radians(15.0)
 """The frames for which the input then swings about that pose, and how far to each side."""
 _SLOW = -4
 """The input's speed where the answer is at another pose, in rungs of the clock's ladder."""
-_BARE = Look(hud=False, trace=False, dead_centres=False)
+_BARE = Look(hud=False, trace=False, names=1, dead_centres=False)
 
 
 class GivenAnswer(NamedTuple):
@@ -128,7 +128,7 @@ class Predict(Game):
         if self.is_over:
             return state.with_mode(replace(self, question=None, chosen=None, since=state.frame))
         question, scene = self.coming or self._next()
-        state = replace(state, look=replace(_BARE, names=question.names, theme=state.look.theme))
+        state = replace(state, look=replace(_BARE, theme=state.look.theme))
         state = with_scene(state, scene, question.phase, paused=True)
         game = replace(self, question=question, chosen=None, coming=None, since=state.frame)
         places = tuple(complex(*one.place) for one in question.answers if one.place)

@@ -93,7 +93,6 @@ class QuizQuestion:
     shows: Look
     arrows: tuple[str, ...]
     stops: float | None
-    names: int
 
     @property
     def question_id(self) -> QuestionId:
@@ -202,7 +201,6 @@ class Puzzle:
         shows: Look = Look(names=1),  # noqa: B008 -- frozen
         arrows: Collection[str] = (),
         stops: float | None = None,
-        names: int = 1,
     ) -> QuizQuestion:
         """Return the question; its answers are in alphabetical order, or `shuffled`."""
         answers = sorted({one.text: one for one in (*wrong, right)}.values(), key=lambda one: one.text)
@@ -210,7 +208,7 @@ class Puzzle:
             self.random.shuffle(answers)
         about = (self.kind, self.scene, self.phase, subject)
         given = (text, tuple(answers), answers.index(right), why)
-        return QuizQuestion(*about, *given, shows, tuple(arrows), stops, names)
+        return QuizQuestion(*about, *given, shows, tuple(arrows), stops)
 
 
 # How numbers and directions are written in questions, and how many answers there are.

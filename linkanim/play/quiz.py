@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from html import escape
 from math import tau
@@ -9,9 +10,11 @@ from random import Random
 
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.explain.documents import body_style
+from linkanim.mechanics.quantities import phrase
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
+from linkanim.picture.frame_words import lines_of
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay, Spot
 from linkanim.picture.quantities import driven_words, speed_words
@@ -120,8 +123,8 @@ _PRINTED = 12
 LETTERS = "abcd"
 _SIZE, _ON_PAPER = (480, 300), (344, 200)
 """A figure's size in pixels, and that of one on paper, which is 40 mm high with letters of 6 pt."""
-_A_PAGE = 5
-"""The most questions on a printed page."""
+_LAST = 2
+"""The questions at the end that are kept together."""
 _SIGNED = "<p class='signed'><span>Name</span><span>Date</span></p>"
 _STYLE = (
     body_style("15px/1.45", 54)
@@ -140,7 +143,7 @@ ol.answers { list-style: lower-alpha; margin: .3rem 0; }
   h1 { font-size: 14pt; margin: 0 0 .3rem; } h2 { font-size: 10.5pt; } section { margin: .5rem 0; }
   section { grid-template-columns: 70mm 1fr; }
   section figure svg { height: 40mm; width: auto; }
-  .page + .page { break-before: page; } .page { break-inside: avoid; } }
+  .last { break-inside: avoid; } h1, h2, .signed { break-after: avoid; } }
 """
 )
 
@@ -160,13 +163,37 @@ def pose_words(question: QuizQuestion) -> str:
 
 def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Figured:
     """Return the figure of a question for paper: answers that are places are lettered dots."""
-    look = Look(hud=False, trace=False, names=question.names, dead_centres=False)
+    look = Look(hud=False, trace=False, names=1, dead_centres=False)
     spots = (
         Spot(letter, one.place)
         for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))
         if one.place and answer_text(question, n) != one.text
     )
     return Figured(question.scene, size, look, question.phase, overlay=Overlay(spots=tuple(spots)))
+
+
+def legend(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:
+    """Return what a question's figure does not say of links: their names, where it has numbers, and a place.
+
+    A link that is asked about and has no label is told by its joints: "2 crank, 3 rod, h: E–F".
+    """
+    figured, names_ = question_figure(question, size), question.scene.info.link_names
+    lines = [line for line in lines_of(figured.picture, question.phase) if line.of.startswith("body:")]
+    labels = {line.of.partition(":")[2]: line.text for line in lines}
+    told = []
+    for body in question.scene.linkage.bodies:
+        label, word = labels.get(body.name), names_[body.name]
+        asked = re.search(rf"{re.escape(phrase(body, names_))}\b", question.text)
+        if label is None and asked:
+            told.append(f"{word}: {'–'.join(body.joints[:2]) or body.slider}")
+        elif label and label.isdecimal() and word != label:
+            told.append(f"{label} {word}")
+    return ", ".join(told)
+
+
+def figure_words(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:
+    """Return what stands below a question's figure: where its input is, and names that it lacks."""
+    return "; ".join(filter(None, (pose_words(question), legend(question, size))))
 
 
 def answer_text(question: QuizQuestion, number: int) -> str:
@@ -199,24 +226,18 @@ def as_html(
     """
     head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
     sections = [*_sections(round_, progress)]
-    pages = (f"<div class='page'>{''.join(some)}</div>" for some in _pages(sections))
+    # the last page has more than one question
+    asked = *sections[:-_LAST], f"<div class='last'>{''.join(sections[-_LAST:])}</div>"
     head_lines = (f"<h1>{escape(title)}</h1>", _SIGNED)
-    body = "\n".join([*head_lines, *pages, *_key_page(round_, title)])
+    body = "\n".join([*head_lines, *asked, *_key_page(round_, title)])
     inside = f"<body>\n<main>\n{body}\n</main>\n</body>"
     return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
-
-
-def _pages(sections: Sequence[str]) -> Iterator[Sequence[str]]:
-    """Yield the questions of each printed page: as many as possible on each, never one alone."""
-    count = -(-len(sections) // _A_PAGE)
-    for n in range(count):
-        yield sections[n * len(sections) // count : (n + 1) * len(sections) // count]
 
 
 def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
         drawn = question_figure(question, _ON_PAPER).document()
-        words = pose_words(question)
+        words = figure_words(question, _ON_PAPER)
         answers = "".join(
             f"<li>{escape(answer_text(question, n))}{_drawn(one.curve)}</li>"
             for n, one in enumerate(question.answers)

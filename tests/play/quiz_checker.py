@@ -916,7 +916,7 @@ MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
         r"the way it turns when the input runs backwards": Checked.backwards,
     },
     "fastest": {
-        r"the input taken for the fastest: a chain can speed up on its way": Checked.input_joint,
+        r"the input taken for the fastest: a chain of links can speed up": Checked.input_joint,
         r"the point farthest from (\S+), taken for the fastest": Checked.farthest,
     },
     "heading": {

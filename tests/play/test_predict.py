@@ -245,7 +245,7 @@ def test_the_input_runs_to_the_dead_centre_and_stands_there() -> None:
     state = playing(f"predict chapter=sliders level=2 again={TURNS_BACK}")
     question = round_of(state).question
     assert question
-    assert state.look.names == 0
+    assert not state.look.dead_centres
     state = advance(state, [Action("option", question.right)])
     for _ in range(400):
         state = advance(state)

@@ -24,10 +24,13 @@ from random_scenes import named
 
 from linkanim.cli import main
 from linkanim.errors import LinkanimError
+from linkanim.mechanics.quantities import phrase
+from linkanim.picture.frame_words import lines_of
+from linkanim.picture.marks import spots
 from linkanim.play.games import LEVELS
 from linkanim.play.kinds import KINDS
 from linkanim.play.question import Puzzle, QuestionId, angle, between
-from linkanim.play.quiz import next_question, pose_words, question_of, questions
+from linkanim.play.quiz import legend, next_question, pose_words, question_figure, question_of, questions
 from linkanim.scenes import chapters, load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
@@ -211,7 +214,6 @@ def test_every_kind_is_asked() -> None:
     ]
     made = [MADE[name]() for name in ("guide-3", "function-5", "stroke")]
     asked = questions(scenes, 60, 1)
-    assert max(question.names for question in asked) == 1  # dimensions and angles would tell answers
     found = Counter(question.kind for question in asked)
     found += Counter(next_question(one, "1", [], MAKING).kind for one in made)
     assert found.keys() == KINDS.keys()
@@ -247,14 +249,40 @@ def test_a_chapter_is_asked_scene_by_scene_on_a_sheet_with_its_key_apart(tmp_pat
         assert f">{load(name).title}</text>" not in text  # no words in the figure that tell the answer
 
 
-def test_a_sheet_has_lines_for_a_name_and_at_most_five_questions_a_page(tmp_path: Path) -> None:
+def test_a_sheet_has_lines_for_a_name_and_its_last_two_questions_stand_together(tmp_path: Path) -> None:
     sheet = tmp_path / "sheet.html"
     assert main(["quiz", "slider-crank", "-n", "11", "-o", str(sheet)]) == 0
     text = sheet.read_text(encoding="utf-8")
     assert text.count("<span>Name</span><span>Date</span>") == 1
-    pages = text.partition("class='key'")[0].split("<div class='page'>")[1:]
-    assert [page.count("<section>") for page in pages] == [3, 4, 4]
-    assert "dead centre" not in re.sub(r"<h2>.*?</h2>|<ol.*?</ol>", "", "".join(pages))
+    sheet_, _, _ = text.partition("class='key'")
+    assert sheet_.count("<section>") == 11
+    assert sheet_.partition("<div class='last'>")[2].count("<section>") == 2
+    assert "dead centre" not in re.sub(r"<h2>.*?</h2>|<ol.*?</ol>", "", sheet_)
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_link_that_is_asked_about_has_its_name_in_the_figure_or_below_it(name: str) -> None:
+    scene = load(name)
+    for question in questions((scene,), 10, 3):
+        shown = {line.text for line in lines_of(question_figure(question).picture, question.phase)}
+        below = legend(question)
+        for body in scene.linkage.bodies:
+            word = scene.info.link_names[body.name]
+            if f"{phrase(body, scene.info.link_names)} " in f"{question.text} ".replace("?", " "):
+                assert {word, body.name} & shown or word in below, (question.text, shown)
+
+
+def test_the_key_of_a_place_lies_on_no_joint() -> None:
+    for name in ("press", "whitworth", "crank-rocker"):
+        question = next_question(load(name), "1", [], ("instant centre",))
+        assert question.kind == "instant centre"
+        figured = question_figure(question)
+        setting, pose = figured.picture.drawing.setting, load(name).pose(question.phase)
+        joints = [setting.view.place(pose.position[joint]) for joint in setting.figure.shown]
+        for _, words in spots(setting, figured.overlay.spots, pose):
+            middle = complex(words.at[0], words.at[1] + 0.5 * words.size)
+            assert min(abs(middle - joint) for joint in joints) > 0.9 * words.size
 
 
 @pytest.mark.window
