@@ -982,6 +982,11 @@ class Linkage(Stated):
         )
 
     @cached_property
+    def reacting(self) -> bool:
+        """Whether forces in its joints are worked out: it has any, and no links that only solve together."""
+        return self.forceful and not any(joint.grouped for joint in self.joints)
+
+    @cached_property
     def slides(self) -> dict[str, Slide]:
         """Map each joint that travels along a line to how it slides."""
         return {joint.name: joint.slides[0] for joint in self.joints if joint.travels}

@@ -364,7 +364,7 @@ class Derived(ABC, Generic[Vector, Number]):
 
         Vectors as positions are: arrays (..., 2), or pairs of a pose.
         """
-        if not self.mechanism.linkage.forceful:
+        if not self.mechanism.linkage.reacting:
             return NOTHING
         whole = isinstance(self.phase, float)
         return {

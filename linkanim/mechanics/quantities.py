@@ -334,14 +334,14 @@ class _Carriers(NamedTuple):
 
 def _carriers(linkage: Linkage) -> _Carriers:
     """Return what carries forces, nothing of a linkage without any."""
-    if not linkage.forceful:
+    if not linkage.reacting:
         return _Carriers()
     return _Carriers(tuple(meeting(linkage).items()), guided(linkage), tuple(meshing(linkage).items()))
 
 
 def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) -> Iterator[Quantity]:
     """Yield the force of each joint on each body, those of guides and gears, and that on the ground."""
-    if not linkage.forceful:
+    if not linkage.reacting:
         return
     order = force_order(linkage)
     labels = {GROUND: "1", **link_labels(linkage)}

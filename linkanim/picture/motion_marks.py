@@ -498,7 +498,7 @@ def arrows_for(
 ) -> tuple[Arrows, ...]:
     """Return the arrows that a look has, scaled to the cycle or to one moment."""
     known: tuple[Kind, ...] = (VELOCITY, ACCELERATION, FORCE)
-    kinds = (kind for kind in known if kind in look.vectors and (kind != FORCE or figure.linkage.forceful))
+    kinds = (kind for kind in known if kind in look.vectors and (kind != FORCE or figure.linkage.reacting))
     return tuple(arrows_of(figure, kind, layout.size[1], gauge, theme, moment=moment) for kind in kinds)
 
 

@@ -135,6 +135,11 @@ class Scene:
         if not self.linkage.forceful:
             reason = "states no mass, spring, damper or load, so it has no forces"
             raise BadInput(f"{self.name}: {reason}; give a body a mass, or add [loads]")
+        if not self.linkage.reacting:
+            raise BadInput(
+                f"{self.name}: forces in joints of links that are solved together are not worked out; "
+                "what the input delivers is"
+            )
 
     @property
     def without_inertia(self) -> Scene:

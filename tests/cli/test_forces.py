@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
+from random_groups import document
 
 import linkanim
 from linkanim.cli import main
@@ -152,3 +154,14 @@ def test_teeth_press_at_the_angle_that_is_stated(said: Callable[..., str]) -> No
         assert gears["moment"] == pytest.approx(-5.0)
         assert gears["tangential"] == pytest.approx(-100.0)
         assert gears["radial"] == pytest.approx(100.0 * math.tan(math.radians(angle)))
+
+
+def test_links_that_are_solved_together_have_an_effort_and_no_forces_in_joints(
+    said: Callable[..., str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = document("triad", 3) | {"loads": {"p": {"on": "plate", "torque": "2 N m"}}}
+    found = json.loads(said("solve", tomli_w.dumps(scene), "--phase", "60 deg", "--json"))
+    assert found["input"]["torque"]
+    assert "reactions" not in found
+    assert main(["draw", str(tmp_path / "scene.toml"), "--vectors", "f", "-o", str(tmp_path / "x.svg")]) == 2
+    assert "forces in joints of links that are solved together" in capsys.readouterr().err

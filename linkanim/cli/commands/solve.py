@@ -231,7 +231,7 @@ def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
         for item in items
     ]
     yield [["element", *_titles(SPRING[force], unit)], *elements]
-    yield from _forces(pose, called) if linkage.forceful else ()
+    yield from _forces(pose, called) if linkage.reacting else ()
     yield [["whole", "value"], *_whole(linkage, unit, pose)]
 
 
