@@ -166,6 +166,15 @@ def speeds(text: str) -> dict[str, float]:
     return found
 
 
+def either_speed(text: str) -> Any:
+    """Read a speed: an angular one in rad/s, or a length in a time."""
+    if not units.names_unit(text, units.TRAVEL_SPEED):
+        return units.angular_speed(text)
+    from linkanim.scenes.form import TravelSpeed  # so that no other command loads it
+
+    return TravelSpeed(units.TRAVEL_SPEED.read(text))
+
+
 def angles(text: str) -> tuple[float, ...]:
     """Read angles with commas between, in radians."""
     found = _several(text, units.angle)
@@ -594,8 +603,14 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             nargs="?",
             const=EVERY_ANGLE,
         ),
+        _value("--travel LENGTH", str, 'how far a slider that drives has travelled, such as "28 cm"'),
+        _value("--coordinate VALUE", str, "where the input is: the angle of a crank, the travel of a slider"),
         _value("--sweep A:B:STEP", sweep, "a row for each angle from A to B, in degrees"),
-        _SPEED,
+        _value(
+            "--speed SPEED",
+            either_speed,
+            'the input\'s speed, such as "30 rpm", at a travel "10 cm/s" (default: the scene\'s)',
+        ),
         _ACCELERATION,
         _STATIC,
         _either(

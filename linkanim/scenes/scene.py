@@ -238,20 +238,25 @@ class Scene:
         *,
         angle: ArrayLike | None = None,
         phase: ArrayLike | None = None,
+        travel: ArrayLike | None = None,
         speed: ArrayLike | None = None,
         acceleration: ArrayLike = 0.0,
         derivatives: int = 2,
     ) -> Motion:
-        """Return the motion at crank angles or at phases (radians), scalar or (N,).
+        """Return the motion at crank angles or at phases (radians), or at a slider's travels, scalar or (N,).
 
         `speed` (rad/s) and `acceleration` (rad/s²) are those of what is given: of the crank's angle,
-        or of the phase; the scene's own speed where none is given. `derivatives` 0, 1 or 2 says how
-        much is worked out. An angle outside the input's range gives NaN; rates at a limit are
-        infinite. BadInput if neither or both of angle and phase are given, for an angle if the
-        input is a slider, for anything but numbers, and beyond a billion turns.
+        or of the phase; the scene's own speed where none is given. Of a slider that drives, at its travel on
+        its way from its first end to its last, they are in the scene's unit of length per s and s².
+        `derivatives` 0, 1 or 2 says how much is worked out. A place outside the input's range gives NaN;
+        rates at a limit are infinite. BadInput unless one of angle, phase and travel is given, for an angle
+        if the input is a slider, for a travel if it is none, for anything but numbers, and beyond a billion
+        turns.
         """
-        if (angle is None) == (phase is None):
-            raise BadInput("give either angle= or phase=, in radians")
+        if sum(place is None for place in (angle, phase, travel)) != 2:
+            raise BadInput("give either angle= or phase=, in radians, or travel= of a slider that drives")
+        if travel is not None:
+            return self._at_travel(travel, speed, acceleration, derivatives)
         if angle is not None:
             self.linkage.drive.check_angle(self.name, "take the phase")
         check_derivatives(derivatives)
@@ -267,6 +272,28 @@ class Scene:
             else given_numbers("acceleration", acceleration),
             derivatives=derivatives,
         )
+
+    def _at_travel(
+        self, travel: ArrayLike, speed: ArrayLike | None, acceleration: ArrayLike, derivatives: int
+    ) -> Motion:
+        """Return the motion at travels of a slider that drives: s = middle - half cos φ, and so its rates."""
+        import numpy as np
+
+        if self.linkage.drive.coordinate.is_angle:
+            raise BadInput(f"{self.name}: its input turns, and has no travel; take the angle")
+        at, (first, last) = given_numbers("travel", travel), self.linkage.drive.actuator.stated_lengths
+        half = (last - first) / 2
+        with np.errstate(all="ignore"):
+            gone, left = (at - first) / half, (last - at) / half
+            phase = 2 * np.arctan2(np.sqrt(gone), np.sqrt(left))
+            if speed is None:
+                return self.solve(phase=phase, acceleration=acceleration, derivatives=derivatives)
+            slope = half * np.sin(phase)
+            rate = given_numbers("speed", speed) / slope
+            second = (
+                given_numbers("acceleration", acceleration) - half * np.cos(phase) * rate * rate
+            ) / slope
+        return self.solve(phase=phase, speed=rate, acceleration=second, derivatives=derivatives)
 
     @cached_property
     def _most(self) -> float:

@@ -66,13 +66,14 @@ def test_the_press_has_its_published_values(
 
 def test_one_pose_is_one_object_of_the_agreed_form(solved: Callable[..., Any]) -> None:
     pose = solved("press", "--angle", "87 deg", "--speed", "10 rad/s")
-    head = ["scene", "angle", "phase", "speed", "acceleration", "length_unit"]
+    head = ["scene", "angle", "coordinate", "phase", "speed", "acceleration", "length_unit"]
     whole = ["input", "transmission_angle", "mechanical_advantage"]
     forces = ["reactions", "guides", "gears", "ground"]
     assert list(pose) == [*head, "joints", "bodies", "springs", "dampers", *whole, *forces]
     assert {key: pose[key] for key in head} == {
         "scene": "press",
         "angle": math.radians(87),
+        "coordinate": math.radians(87),
         "phase": pytest.approx(math.radians(87), abs=1e-15),
         "speed": 10.0,
         "acceleration": 0.0,
@@ -390,3 +391,61 @@ def test_the_words_of_a_sweep_are_a_line_for_each_angle(solve: Solve) -> None:
     lines = solve("slider-crank", "--sweep", "0:90:45").splitlines()
     assert [line.split()[0] for line in lines] == ["angle", "0", "45", "90"]
     assert "slider mm" in lines[0]
+
+
+PISTON = """
+length_unit = "mm"
+[drive]
+speed = "20 rpm"
+slider = { joint = "C", from = 80, to = 160 }
+[ground]
+O = [0, 0]
+[joints.C]
+line = { through = "O", angle = "0 deg" }
+[joints.B]
+from = ["C", "O"]
+length = [120, 40]
+side = "left"
+[bodies]
+crank = { joints = ["O", "B"] }
+"""
+
+
+def test_a_slider_that_drives_is_put_at_a_travel_with_a_speed_along_its_line(
+    tmp_path: Path, solved: Callable[..., Any]
+) -> None:
+    path = tmp_path / "piston.toml"
+    path.write_text(PISTON)
+    found = solved(str(path), "--travel", "13 cm", "--speed", "-0.2 m/s")
+    crank = found["bodies"]["crank"]
+    assert found["coordinate"] == found["travel"] == 130
+    # by the law of cosines
+    assert math.degrees(crank["angle"]) == pytest.approx(-66.78199, abs=5e-6)
+    assert crank["angular_velocity"] == pytest.approx(-4.780671, abs=5e-7)
+    assert crank["angular_acceleration"] == pytest.approx(3.464530, abs=5e-7)
+    assert solved(str(path), "--coordinate", "130 mm", "--speed", "-20 cm/s") == found
+    assert solved("press", "--coordinate", "30 deg") == solved("press", "--angle", "30 deg")
+
+
+TRAVELS = [
+    ("beyond its ends", ("my.toml", "--travel", "2 m"), "the slider goes from 80 to 160 mm"),
+    ("of a crank", ("press", "--travel", "2 m"), "its input turns, and has no travel"),
+    ("a speed of a crank", ("press", "--angle", "3 deg", "--speed", "2 m/s"), "goes with --travel"),
+    ("two places", ("my.toml", "--travel", "2 m", "--coordinate", "1 m"), "say where to solve"),
+]
+
+
+@pytest.mark.parametrize(("words", "reason"), [row[1:] for row in TRAVELS], ids=[row[0] for row in TRAVELS])
+def test_a_travel_that_cannot_be_is_one_sentence(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
+    reason: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("my.toml").write_text(PISTON)
+    assert main(["solve", *words]) == 2
+    said = capsys.readouterr().err
+    assert reason in said
+    assert said.count("\n") == 1

@@ -42,6 +42,7 @@ from linkanim.mechanics.measures import (
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Path, plain_unit, recorded
 from linkanim.scenes import load
+from linkanim.scenes.form import TravelSpeed
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
@@ -160,7 +161,14 @@ def blocks(
         inputs = steps.radians(row - shared, stop)
         motion = solve(inputs)
         time = (inputs - start) / speed if speed else np.full(len(inputs), np.nan)
-        where = {input_key(scene): input_place(motion), "phase": motion.phase, by: inputs, "time": time}
+        place = input_place(motion)
+        where = {
+            input_key(scene): place,
+            "coordinate": place,
+            "phase": motion.phase,
+            by: inputs,
+            "time": time,
+        }
         found = _continued({**where, **tree(scene, motion)}, last)
         last = found
         yield RowBlock(steps.degrees(row, stop), _without(found, shared))
@@ -190,13 +198,16 @@ def _without(found: Tree, rows: int) -> Tree:
 # What `solve` prints for people: aligned columns, angles in degrees, seven digits.
 
 
-def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
-    """Return one pose as text: the input, then tables of joints, bodies, sliders, springs and dampers."""
+def of_pose(scene: Scene, found: Iterator[Tree], *, per: str = "rad") -> str:
+    """Return one pose as text: the input, then tables of joints, bodies, sliders, springs and dampers.
+
+    `per` is the unit of what the input's speed is the rate of.
+    """
     pose = next(found)
     where = (
         f"{scene.name}: {scene.title}\n"
         f"{_input(scene, pose)}, phase {_degrees(pose['phase'])} deg, "
-        f"speed {_number(pose['speed'])} rad/s, acceleration {_number(pose['acceleration'])} rad/s^2"
+        f"speed {_number(pose['speed'])} {per}/s, acceleration {_number(pose['acceleration'])} {per}/s^2"
     )
     tables = _tables(scene, pose)
     return "\n\n".join([where, *(columns(lines) for lines in tables if len(lines) > 1)])
@@ -349,11 +360,22 @@ _NUMBER = "\0"
 
 @frozen
 class Inputs:
-    """Where to solve: `by` is "angle" (of the crank) or "phase"; one value in radians, or a sweep's steps."""
+    """Where to solve: `by` is "angle" (of the crank), "phase", "travel" or "coordinate".
+
+    There is one value, in radians or as a text, or a sweep's steps.
+    """
 
     by: str
-    value: float = 0.0
+    value: float | str = 0.0
     steps: Steps | None = None
+
+    def of(self, scene: Scene) -> Inputs:
+        """Return the inputs with a text read: a travel in the scene's unit, or the crank's angle."""
+        if not isinstance(self.value, str):
+            return self
+        if self.by == "coordinate" and scene.linkage.drive.coordinate.is_angle:
+            return Inputs("angle", units.angle(self.value))
+        return Inputs("travel", units.length(self.value, unit=scene.length_unit))
 
 
 def run(options: Namespace) -> None:
@@ -374,9 +396,17 @@ def run(options: Namespace) -> None:
     if options.static:
         scene = scene.without_inertia
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
+    inputs = inputs.of(scene)
+    if isinstance(speed, TravelSpeed):
+        if inputs.by != "travel":
+            raise BadInput(
+                "--speed: is a speed along a line, which goes with --travel of a slider that drives"
+            )
+        speed = speed.metres / units.metre(scene.length_unit)
     if inputs.steps is not None:
         _refuse_many(scene, inputs.steps.rows, shown=not (options.csv or options.json))
-    found = _blocks(scene, inputs, speed, options.acceleration)
+    asked = inputs.by == "travel" and options.speed is not None
+    found = _blocks(scene, inputs, speed if inputs.by != "travel" or asked else None, options.acceleration)
     if inputs.steps is not None and inputs.steps.rows > BLOCK and not _is_printing(options, target):
         from linkanim.cli.progress import along
 
@@ -384,14 +414,21 @@ def run(options: Namespace) -> None:
     if options.csv:
         _write_csv(target, inputs.by, found)
         return
-    head: Tree = {"scene": scene.name, input_key(scene): None, "phase": None}
+    key = input_key(scene)
+    head: Tree = {
+        "scene": scene.name,
+        key: None,
+        **({"coordinate": None} if options.json else {}),
+        "phase": None,
+    }
     head |= {"time": None} if inputs.steps else {}
     head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
     trees = ({**head, **block.found} for block in found)
     if options.json:
-        _print_json(trees, inputs.steps is not None)
+        _print_json(({**one, "coordinate": one[key]} for one in trees), inputs.steps is not None)
     else:
-        words = of_sweep if inputs.steps else of_pose
+        per = scene.length_unit if asked else "rad"
+        words = of_sweep if inputs.steps else partial(of_pose, per=per)
         print(words(scene, (row for block in trees for row in rows(block))))
 
 
@@ -403,7 +440,13 @@ def _is_printing(options: Namespace, target: FilePath | None) -> bool:
 def _inputs(options: Namespace) -> Inputs:
     angle, phase = options.angle, options.phase
     every = phase is EVERY_ANGLE
-    given = [(by, value) for by, value in (("angle", angle), ("phase", phase)) if value is not None]
+    ways = (
+        ("angle", angle),
+        ("phase", phase),
+        ("travel", options.travel),
+        ("coordinate", options.coordinate),
+    )
+    given = [(by, value) for by, value in ways if value is not None]
     if options.sweep is not None:
         if given and not (every and angle is None):
             raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
@@ -413,7 +456,10 @@ def _inputs(options: Namespace) -> Inputs:
     if every:
         raise BadInput('--phase has no value; write it with its unit, such as --phase "87 deg"')
     if len(given) != 1:
-        raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
+        raise BadInput(
+            'say where to solve: one of --angle "87 deg", --phase "87 deg", --travel "28 cm" and'
+            " --sweep 0:360:1"
+        )
     return Inputs(*given[0])
 
 
@@ -432,19 +478,21 @@ def _refuse_many(scene: Scene, rows: int, *, shown: bool) -> None:
         )
 
 
-def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> Iterator[RowBlock]:
+def _blocks(scene: Scene, inputs: Inputs, speed: float | None, acceleration: float) -> Iterator[RowBlock]:
     """Yield the rows in blocks; `OutOfRange` for a single angle that cannot be reached."""
 
     def solve(values: Leaf) -> Motion:
         return scene.solve(**{inputs.by: values}, speed=speed, acceleration=acceleration)  # type: ignore[arg-type]
 
     if inputs.steps is not None:
+        assert speed is not None
         yield from blocks(scene, inputs.steps, inputs.by, speed, solve)
         return
-    motion = solve(np.array([inputs.value]))
+    at = float(inputs.value)
+    value = np.array([at])
+    motion = solve(value)
     if any(np.isnan(points).any() for points in motion.every["position"].values()):
-        raise _out_of_range(scene, inputs.value)
-    value = np.array([inputs.value])
+        raise _out_of_range(scene, at) if inputs.by != "travel" else _out_of_travel(scene, at)
     where = {input_key(scene): input_place(motion), "phase": motion.phase, inputs.by: value}
     yield RowBlock(np.degrees(value), {**where, **tree(scene, motion)})
 
@@ -464,6 +512,14 @@ def _out_of_range(scene: Scene, angle: float) -> OutOfRange:
     return OutOfRange(
         f"{scene.name}: --angle {_in_degrees(angle)} cannot be reached; "
         f"the {scene.info.input_name} angle goes {reach}{way_on}"
+    )
+
+
+def _out_of_travel(scene: Scene, travel: float) -> OutOfRange:
+    low, high = (significant(end, 6) for end in scene.info.input_range)
+    told, unit = significant(travel, 6), scene.length_unit
+    return OutOfRange(
+        f"{scene.name}: --travel {told} {unit} cannot be reached; the slider goes from {low} to {high} {unit}"
     )
 
 
