@@ -260,7 +260,7 @@ def overlay(
         lists,
         panel=lists.panel and replace(lists.panel, pointed=row),
         quantities=lists.quantities and replace(lists.quantities, pointed=row),
-        toast=lists.toast or (state.toast.text if state.toast else None),
+        toast=_plain(lists.toast or (state.toast.text if state.toast else None)),
         chip=_chip(state),
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
@@ -273,6 +273,11 @@ def overlay(
         game=lists.game and replace(lists.game, pointed=row),
         bar=bar(state, button),
     )
+
+
+def _plain(text: str | None) -> str | None:
+    """Return a message without the marks in which a terminal's messages have commands."""
+    return text and text.replace("`", "")
 
 
 def _swing(state: State) -> SwingShown | None:

@@ -858,3 +858,17 @@ def test_the_list_of_commands_opens_by_a_right_click_and_does_what_is_chosen(pla
     assert player.state.of(Listing)
     player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
     assert player.state.of(Listing) is None
+
+
+@pytest.mark.parametrize("asked", ["F5", "a file that is gone", "a file that is no scene"])
+def test_a_message_of_the_window_has_no_marks_of_the_terminal(player: Player, here: Path, asked: str) -> None:
+    if asked == "F5":
+        player.press(pygame.K_F5)
+    else:
+        (here / "readme.txt").write_text("no scene")
+        file = here / ("gone.toml" if "gone" in asked else "readme.txt")
+        pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(file)))
+    player.tick(2)
+    toast = player.window.screen.over.toast
+    assert toast
+    assert "`" not in toast
