@@ -37,6 +37,7 @@ from linkanim.player.edits import (
     measured,
     nudged,
     panel_of,
+    pass_on,
     reset,
     returns,
 )
@@ -676,13 +677,24 @@ def _unused(state: State, _: object) -> State:
     return state
 
 
-_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _taken}
+def _passed_on(state: State, further: int) -> State:
+    """Go on in the list; what is typed as a bar's length waits in its row there, another value is taken."""
+    building = sheet_of(state).building
+    if building.typed and (building.row or (building.chosen or ("",))[0] != "bars"):
+        state, building = (taken := _taken(state, None)), sheet_of(taken).building
+        if building.is_refusal:
+            return state
+    bare = _with(state, building=choosing(replace(building, typed=""), None), rowed=False)
+    return pass_on(replace(bare, editing=replace(bare.editing, typed=building.typed)), further)
+
+
+_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _taken, "pass_on": _passed_on}
 _WHILE_IT_STANDS: Mapping[str, Handler] = {
     "choose": _in_rows(_row_further),
     "pass_on": _in_rows(_row_further),
     "grab_row": _in_rows(_row_chosen),
     "nudge": _in_rows(_row_nudged),
-    **_OWN_ROWS,
+    **{name: _OWN_ROWS[name] for name in ("type", "erase", "take")},
     **dict.fromkeys(("pull", "reset", "returns", "grab", "carry"), _unused),
     "closure": reassemble,
 }

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import tau
 from typing import ClassVar
 
 from linkanim.frozen import frozen
@@ -81,10 +82,12 @@ def _facts(scene: Scene) -> Iterator[ListRow]:
         to = Action("note", f"{label}: {words}")
         if label == "transmission angle" and transmission:
             to = Action("scrub", transmission.phase)
-        yield _row(label, words, to, "least" if label == "transmission angle" else "")
-    for phase in info.dead_centres or ():
-        where = driven_words(scene, scene.pose(phase, 0).coordinate)
-        yield _row(f"dead centre of the {info.output_name}", where, Action("scrub", phase))
+        yield _row(label, words, to, "fact least" if label == "transmission angle" else "fact")
+    ends = info.swing.dead_centres if info.swing else info.dead_centres
+    for n, phase in enumerate(ends or (), start=1):
+        place = scene.pose(phase, 0).coordinate
+        where = driven_words(scene, place % tau if info.full_turn else place)
+        yield _row(f"dead centre {n} of {info.output_name}", where, Action("scrub", phase), "fact")
 
 
 def _dimensions(state: State) -> Iterator[ListRow]:

@@ -38,7 +38,7 @@ from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
-from linkanim.scenes.editing import other_closure
+from linkanim.scenes.editing import dimensions, other_closure
 from linkanim.scenes.toml import parse, save
 from linkanim.synthesis.answers import PathAnswer
 
@@ -272,6 +272,19 @@ def test_an_empty_sheet_is_asked_for_twice_where_a_draft_would_be_lost(builder: 
     assert builder.sheet.building.draft.places
     builder.press(pygame.K_n, CTRL)
     assert not builder.sheet.building.draft.places
+
+
+def test_a_length_typed_for_the_chosen_bar_waits_in_its_row_while_tab_goes_on(builder: Builder) -> None:
+    builder.four_bar()
+    builder.press(pygame.K_e, 0, "e")
+    builder.type("85")
+    builder.press(pygame.K_TAB)
+    builder.type("10 rad/s")
+    builder.press(pygame.K_RETURN)
+    scene = builder.sheet.building.made.scene
+    assert scene
+    assert scene.linkage.drive.speed == pytest.approx(10.0)
+    assert [item.value for item in dimensions(scene) if item.label == "Rocker 4"] == [85]
 
 
 def test_digits_are_the_number_of_what_is_chosen(builder: Builder) -> None:
