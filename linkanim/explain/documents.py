@@ -22,7 +22,7 @@ from unicodedata import east_asian_width
 import numpy as np
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
-from linkanim.explain.solution import INPUT_TITLE, TOLD, Solution
+from linkanim.explain.solution import FORCES, INPUT_TITLE, TOLD, Solution
 from linkanim.explain.steps import (
     HALF,
     MARKED,
@@ -220,8 +220,8 @@ class DocumentForm:
     """How one kind of document is written; names of joints are marked in headings and in text.
 
     `listed` sets a list of formulas with the words for each. `figure` draws the loops, `construction` how the
-    linkage was made; a page leaves both to a module that prints pictures. `steps` joins the steps of a
-    chapter. `new_page` begins a page.
+    linkage was made, `free` its bodies free; a page leaves them to a module that prints pictures. `steps`
+    joins the steps of a chapter. `new_page` begins a page.
 
     Of an exercise, `beside` sets what is given beside the figure, `question` a question, and `answers` the
     numbers to be found, with room to write; `named` is the line for name and marks, where `{}` are the most,
@@ -238,6 +238,7 @@ class DocumentForm:
     listed: Callable[[list[tuple[str, str]]], str]
     figure: Callable[[Solution], str] = lambda _: ""
     construction: Callable[[Solution], str] = lambda _: ""
+    free: Callable[[Solution], str] = lambda _: ""
     steps: Callable[[list[str]], str] = "\n\n".join
     new_page: str = ""
     beside: Callable[[str, str], str] = lambda one, other: "\n\n".join(filter(None, (one, other)))
@@ -288,6 +289,8 @@ def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Ite
         drawn = form.figure(found) if chapter is found.loop_chapter else ""
         if chapter is found.synthesis_chapter:
             yield form.construction(found)
+        if chapter.title == FORCES and found.bodies:
+            yield form.free(found)
         written = ["\n\n".join(step_parts(step, form, blank)) for step in chapter.steps]
         yield form.steps([part for part in (drawn, *written) if part])
 
@@ -410,6 +413,34 @@ def _html_question(one: QuestionParts) -> str:
     return f"<div class='question'{grows}>\n{head}{hint}\n{room}\n{one.answers}\n</div>"
 
 
+_LIT = """<style>
+[data-of] { cursor: default; } math mrow.lit { background: #ffe3f1; color: #a8005a; }
+svg g.lit path, svg text.lit { fill: #e6007e; }
+</style><script>
+(() => {
+  // a symbol of a force, its arrows and its name light up together
+  const same = new Map();
+  for (const one of document.querySelectorAll("mrow[data-of], g[data-of], text[data-of^='vector:']")) {
+    same.set(one.dataset.of, [...(same.get(one.dataset.of) ?? []), one]);
+    const light = (on) => same.get(one.dataset.of).forEach((other) => other.classList.toggle("lit", on));
+    one.addEventListener("pointerenter", () => light(true));
+    one.addEventListener("pointerleave", () => light(false));
+  }
+})();
+</script>
+"""
+
+
+def _lit_symbol(symbol: Symbol) -> str:
+    """Return a symbol in MathML; of a force or moment it says which arrow it goes with."""
+    written = MATHML.symbol(symbol)
+    if symbol.letter not in _PULLS or not symbol.sub:
+        return written
+    index = symbol.sub.rstrip("xy").rstrip(",")
+    return f"<mrow data-of='vector:{symbol.letter}_{escape(index)}'>{written}</mrow>"
+
+
+_PULLS = frozenset("FNQZCM")
 HTML = DocumentForm(
     how=MATHML,
     page=_html_page,
@@ -427,6 +458,13 @@ HTML = DocumentForm(
     named="<p class='signed'><span>Name</span><span>Date</span><span>Marks, of {}</span></p>",
     sheet=lambda pages: "\n".join(f"<div class='page'>\n{one}\n</div>" for one in pages),
 )
+
+LIT = replace(
+    HTML,
+    how=replace(MATHML, symbol=_lit_symbol),
+    page=lambda title, body: HTML.page(title, f"{body}\n{_LIT}"),
+)
+"""A page in which a symbol of a force lights up its arrows, and an arrow its symbols."""
 
 _PREAMBLE = r"""\documentclass[10pt,a4paper,fleqn]{article}
 %s\usepackage{textcomp,amsmath,tikz}

@@ -205,6 +205,8 @@ def _cylinder(
 
 # The loads of a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
 
+FORCES = "Forces"
+"""The title of the chapter on what each body carries."""
 _WORDS = ("com_position", "com_velocity", "com_acceleration")
 
 
@@ -746,7 +748,7 @@ class _Draft:
         found = forces(balance, self.request.about)
         self.results += found.results
         self.bodies = found.bodies
-        yield Chapter("Forces", found.steps)
+        yield Chapter(FORCES, found.steps)
 
     def _found(self, title: str, found: Iterable[Outcome]) -> None:
         """Add a step with its results."""

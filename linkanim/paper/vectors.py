@@ -42,7 +42,7 @@ def polygons_svg(figured: Figured) -> str:
     return svg(figured.size, picture.theme.background, groups, title=title)
 
 
-class _Named(NamedTuple):
+class NamedPlace(NamedTuple):
     """A text, and where its middle may stand, best first."""
 
     text: str
@@ -93,19 +93,21 @@ def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
     joints = {name: _pixel(picture, at) for name, at in found.places.items()}
     ends = [end for _, *both in long for end in both]
     touched = {name: at for name, at in joints.items() if any(abs(at - end) < 1 for end in ends)}
-    names = [_Named(subscripted(name), _around(at, pen.text), theme.ink) for name, at in touched.items()]
+    names = [
+        NamedPlace(subscripted(name), around_joint(at, pen.text), theme.ink) for name, at in touched.items()
+    ]
     for one, begin, end in long:
         colour = theme.velocity if one.symbol.letter == "R" else theme.acceleration
         yield Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
         text = f"{one.symbol.letter}_{{{one.symbol.sub}}}"
-        names.append(_Named(text, _beside(begin, end, pen.text), colour))
+        names.append(NamedPlace(text, beside(begin, end, pen.text), colour))
     whole = Rect(0, 0, *picture.size)
     ground = grounded(whole, lines=[(begin, end) for _, begin, end in long], half=1.5 * pen.line)
     spots = np.array([[*touched.values()]], np.complex128).reshape(1, -1)
-    yield from _captions(names, ground._replace(discs=spots, radii=np.full(len(touched), 4 * pen.line)), pen)
+    yield from captions(names, ground._replace(discs=spots, radii=np.full(len(touched), 4 * pen.line)), pen)
 
 
-def _captions(names: list[_Named], ground: Obstacles, pen: Pen) -> Iterator[Caption]:
+def captions(names: list[NamedPlace], ground: Obstacles, pen: Pen) -> Iterator[Caption]:
     """Yield names placed where they cover nothing, else as little as possible."""
     labels = [
         Alternatives(
@@ -123,7 +125,7 @@ def _captions(names: list[_Named], ground: Obstacles, pen: Pen) -> Iterator[Capt
         yield Caption(one.text, top, pen.text, one.colour, "centre", strong=True, halo=halo)
 
 
-def _beside(begin: complex, end: complex, text: float) -> list[complex]:
+def beside(begin: complex, end: complex, text: float) -> list[complex]:
     """Return places for a vector's name: by its middle on either side, then along it and further off."""
     across = 1j * (end - begin) / abs(end - begin)
     return [
@@ -134,7 +136,7 @@ def _beside(begin: complex, end: complex, text: float) -> list[complex]:
     ]
 
 
-def _around(at: complex, text: float) -> list[complex]:
+def around_joint(at: complex, text: float) -> list[complex]:
     """Return places for a joint's name."""
     turns = (-45, -135, 45, 135, 0, 180, -90, 90)
     return [at + away * text * np.exp(1j * np.radians(turn)) for away in (1.1, 1.6) for turn in turns]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -154,6 +155,31 @@ def test_without_the_option_there_is_no_chapter_and_with_it_one(
         path = tmp_path / f"engine.{suffix}"
         assert main(["explain", "engine", "--angle", "40 deg", "--static", "-o", str(path)]) == 0
         assert "Forces" in path.read_text(encoding="utf-8")
+
+
+def test_a_page_draws_each_body_free_and_each_symbol_says_its_arrow(tmp_path: Path) -> None:
+    path = tmp_path / "engine.html"
+    assert main(["explain", "engine", "--angle", "40 deg", "--forces", "-o", str(path)]) == 0
+    page = path.read_text(encoding="utf-8")
+    drawn = page[page.index("aria-label='Free bodies") :].partition("</svg>")[0]
+    for words in ("Crank", "Rod", "Slider"):
+        assert f">{words}</text>" in drawn
+    arrows = set(re.findall(r'<g data-of="vector:([^"]*)"', drawn))
+    assert arrows == {"F_A,2", "F_O2,2", "Q_2", "F_A,3", "F_B,3", "Q_3", "F_B,4", "N_4", "Q_4"}
+    assert arrows <= set(re.findall(r"<mrow data-of='vector:([^']*)'", page))
+    assert drawn.count('data-of="vector:F_B,4"') == 4  # arrow and name, free and in the triangle of forces
+
+
+def test_three_forces_on_a_body_close_a_triangle() -> None:
+    found = forces_of(load("press").without_inertia, 1.5)
+    for body in found.bodies:
+        total = [sum(getattr(one.force, axis).value for one in body.forces) for axis in "xy"]
+        assert total == pytest.approx([0, 0], abs=1e-3)
+        turned = sum(couple.value for _, couple in body.couples) + sum(
+            one.place.x.value * one.force.y.value - one.place.y.value * one.force.x.value
+            for one in body.forces
+        )
+        assert turned == pytest.approx(0, abs=0.1)
 
 
 def test_an_exercise_with_forces_asks_for_them_and_its_key_has_them(

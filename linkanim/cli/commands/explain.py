@@ -14,7 +14,7 @@ from linkanim.cli.letters import tell_of_scene
 from linkanim.cli.options import inputs_of
 from linkanim.cli.progress import along
 from linkanim.errors import BadInput
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
+from linkanim.explain.documents import HTML, LIT, MARKDOWN, TEX, document
 from linkanim.explain.exercise import LEVELS, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
@@ -22,6 +22,7 @@ from linkanim.intake import few
 from linkanim.letters import LATEX
 from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.figure import dimensioned
+from linkanim.paper.free_bodies import free_bodies_svg
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
@@ -56,7 +57,8 @@ def run(options: Namespace) -> None:
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
     if form is HTML:
         drawn = _dimensioned if options.exercise else _figure
-        form = replace(form, figure=drawn, construction=_construction)
+        form = LIT if options.forces or options.static else form
+        form = replace(form, figure=drawn, construction=_construction, free=_free)
     text = (
         exercise(versions, form, options.level or LEVELS[0])
         if options.exercise
@@ -81,6 +83,11 @@ def _figure(found: Solution) -> str:
 def _dimensioned(found: Solution) -> str:
     figured = dimensioned(found.request.scene, found.phase)
     drawn = embedded(figured.document(), f"{found.title}: dimensions")
+    return f"<figure class='vectors'>{drawn}</figure>"
+
+
+def _free(found: Solution) -> str:
+    drawn = embedded(free_bodies_svg(found), f"Free bodies of {found.title}")
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
