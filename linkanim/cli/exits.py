@@ -181,8 +181,8 @@ def _print_anything() -> None:
 def _signals_raise() -> Iterator[None]:
     """Turn a signal during the block into an exception, once: a second one does not cut clean-up short.
 
-    Python drops an exception that is raised while an object is deleted; its signal is then sent again. A
-    signal that is ignored, as SIGHUP is under nohup, stays ignored. Outside the main thread, where Python
+    Python drops an exception that is raised while an object is deleted; the next signal then counts. A signal
+    that is ignored, as SIGHUP is under nohup, stays ignored. Outside the main thread, where Python
     allows no signal handlers, this does nothing.
     """
     threading = sys.modules.get("threading")  # where nobody has loaded it there is one thread
@@ -191,20 +191,17 @@ def _signals_raise() -> Iterator[None]:
         return
     raised = [-_ONE_AND_THE_SAME]
     ends: list[BaseException] = []
-    numbers: list[signal.Signals] = []
     told = sys.unraisablehook
 
     def arrived(number: int, frame: FrameType | None) -> None:
         if time.monotonic() - raised[0] >= _ONE_AND_THE_SAME:
             raised[0] = time.monotonic()
-            numbers.append(signal.Signals(number))
             ends.append(KeyboardInterrupt() if number == signal.SIGINT else Ended(128 + number))
             raise ends[-1]
 
     def lost(what: sys.UnraisableHookArgs) -> None:
         if what.exc_value in ends:
-            raised[0] = -_ONE_AND_THE_SAME
-            _soon(numbers[ends.index(what.exc_value)])
+            raised[0] = -_ONE_AND_THE_SAME  # the next one counts again
         elif not any(one in ends for one in _behind(what.exc_value)) and not _lacks_memory(what.exc_value):
             told(what)  # what a signal or the end of memory broke is no news
 
@@ -231,19 +228,3 @@ def _behind(error: BaseException | None) -> Iterator[BaseException]:
     """Yield what an error was raised from, or while it was handled, the nearest first."""
     while error := error and (error.__cause__ or error.__context__):
         yield error
-
-
-def _soon(number: signal.Signals) -> None:
-    """Have a signal arrive a moment later, when Python has left the code that would drop it again."""
-    import _thread
-
-    main = _thread.get_ident()  # signals are handled in no other thread
-
-    def arrive() -> None:
-        time.sleep(0.01)
-        if sys.platform == "win32":
-            _thread.interrupt_main(number)
-        else:  # this also wakes a program that waits for another
-            signal.pthread_kill(main, number)
-
-    _thread.start_new_thread(arrive, ())

@@ -17,8 +17,8 @@ describe
   from there. `games.game_of` reads them; a new game is a module with `read(words)`, named in its table.
 - What only the outside knows (a seed, best scores, missed questions) is asked for by the effect "begin" with
   words that lack it; the window has `Arcade.completed` fill them in and carries out "play" with the completed
-  words, which the tape keeps. The effect "score" passes on a result to be kept, "sound" a cue of
-  `player.sound`. All these effects are left out when a tape is played.
+  words, which the tape keeps. The effect "score" passes on a result to be kept. Both effects are left out
+  when a tape is played.
 - A game shows a `picture.overlay.GamePanel` (heading, scores, lines, answers, bars, a verdict) in the room of
 a
   list, and `Spot`s on the picture; curves are shown by `Overlay.path`.

@@ -176,10 +176,9 @@ CONTROLS = {
     "Space": "stop",
     "↑ ↓": "another track, before and after a run",
     "1–3": "wide, narrower, narrow, likewise",
-    "a gamepad's stick": "turn the crank to its angle",
 }
 """What a hand can do, as the manual has it."""
-_HINT = f"drag the crank pin   ← → {CONTROLS['← →'].partition(' (')[0]}   Space stops   a gamepad's stick"
+_HINT = f"drag the crank pin   ← → {CONTROLS['← →'].partition(' (')[0]}   Space stops"
 
 
 @frozen
@@ -290,13 +289,12 @@ class FollowRun(Game):
         state = replace(state, clock=clock)
         if game.outside >= _SLACK or paper >= 1_000 * LENGTH:
             return game._ended(state)
-        crossed = self.is_within and not within
-        return (with_effect(state, "sound", "wrong") if crossed else state).with_mode(game)
+        return state.with_mode(game)
 
     def _ended(self, state: State) -> State:
         """Return the state with the run over, and its score as an effect."""
         kept = f"best={self.kept_as}:{self.passed // 1_000}"
-        state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_whole else "wrong")
+        state = with_effect(state, "score", kept)
         return state.with_mode(replace(self, stage="over", notch=0))
 
     @property

@@ -417,14 +417,13 @@ class MatchGame(Game):
         return _put(state, self, joints)
 
     def _dropped(self, state: State) -> State:
-        """Release the joint; a better score is stored, and a full one has a sound."""
+        """Release the joint; a better score is stored."""
         game = self.judged
         total = sum(game.points)
         state = state.with_mode(replace(game, held=None, best=max(self.best, total)))
         if total <= self.best:
             return state
-        state = with_effect(state, "score", f"best={self.kept_as}:{total}")
-        return with_effect(state, "sound", "right") if total == 3 * _POINTS else state
+        return with_effect(state, "score", f"best={self.kept_as}:{total}")
 
     def _chosen(self, state: State, choice: int) -> State:
         """Give up, or go back to the player's own linkage; begin again; go on to the next level."""

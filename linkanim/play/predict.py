@@ -195,7 +195,6 @@ class Predict(Game):
         look = replace(look, zoom=state.look.zoom, pan=state.look.pan)
         game = replace(self, done=done, chosen=chosen, since=state.frame)
         state = replace(state.with_mode(game), look=look)
-        state = with_effect(state, "sound", "right" if right else "wrong")
         again = self._comes_again if len(self.done) >= COUNT else None
         about = question.question_id if again is None else self.missed[again[0]]
         state = with_effect(state, "score", f"{'met' if right else 'missed'}={about}")

@@ -31,7 +31,6 @@ From the ground up; a module imports from those before it only:
     actions    the table of actions, and `advance(state, actions)`
     tape       what was done, frame by frame
     tape_file  a tape as a file
-    sound      cues, their waves, the loudspeaker
     files      files that the window writes
     beside     processes beside the window: a search, a recording
     desktop    what the desktop asks of every program

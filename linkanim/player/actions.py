@@ -216,17 +216,6 @@ def go(state: State, _: None) -> State:
 _MEANT = "recording: Q again ends it, writes it and quits"
 
 
-def sounds(state: State, _: None) -> State:
-    """Switch sounds on or off."""
-    return replace(state, sounds=not state.is_audible)
-
-
-def pad(state: State, name: str) -> State:
-    """Record that a gamepad was plugged in, or that the last one is gone."""
-    told = f"{name}: its left stick turns the crank; H lists its buttons" if name else "the gamepad is gone"
-    return with_toast(replace(state, pad=bool(name)), told)
-
-
 def back(state: State, _: None) -> State:
     """Close what lies on top: the help, a list, a typed value; never the window.
 
@@ -297,7 +286,7 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 BESIDE = (
     BESIDE_GAMES
     | {"keep_step", "caption_step", "lesson_on"}
-    | {"take_toast", "take_into", "stir", "menu", "note", "hint", "pad", "close"}
+    | {"take_toast", "take_into", "stir", "menu", "note", "hint", "close"}
 )
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 
@@ -324,8 +313,7 @@ def leave(state: State) -> State:
     look = replace(under.look, theme=state.look.theme)
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
-    resumed = replace(resumed, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    resumed = replace(resumed, kiosk=state.kiosk, take=state.take)
+    resumed = replace(resumed, from_title=state.from_title, kiosk=state.kiosk, take=state.take)
     above = (one for one in state.unlisted.modes if not isinstance(one, Game))
     resumed = replace(resumed, modes=(*under.modes, *above))
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
@@ -371,11 +359,6 @@ def _chart(before: State, after: State) -> str | None:
     new = next((token for token in now if token not in was), None)
     gone = next((token for token in was if token not in now), now[0])
     return quantity(after.scene, new).words if new else f"no {quantity(after.scene, gone).words}"
-
-
-def _sounds(_: State, after: State) -> str:
-    """Say whether the motion is heard."""
-    return "sounds" if after.is_audible else "no sounds"
 
 
 def _zoom(_: State, after: State) -> str:
@@ -483,8 +466,6 @@ ACTIONS: Mapping[str, Rule] = {
     "reload": Rule(rules.nothing, effect("reload"), taped=False),
     "quit": Rule(rules.nothing, quit_, taped=False),
     "close": Rule(rules.nothing, close, taped=False),  # the window's own button
-    "sounds": Rule(rules.nothing, sounds, taped=False, answer=_sounds),
-    "pad": Rule(rules.text, pad, taped=False),  # the gamepad's name; empty for none
     "hint": Rule(rules.text, with_chip, taped=False),  # what letting go would do, as a chip
     "note": Rule(rules.text, with_toast, taped=False),  # something the window has to say, as a toast
 }
@@ -510,7 +491,7 @@ Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo", "stage"})
 """Actions that open a sheet, or show a step of a lesson, even out of a game."""
-_NOT_BY_HAND = frozenset({"note", "hint", "pad", "stir"})
+_NOT_BY_HAND = frozenset({"note", "hint", "stir"})
 """Actions that no user asks for, and the one that only brings the bar of commands."""
 _LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the frame in the state's field something is visible."""

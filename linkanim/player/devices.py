@@ -1,6 +1,6 @@
 """Turn events of the devices into actions: keyboard, fingers, gamepads, mouse.
 
-A held key repeats. Fingers act as the mouse. A gamepad's stick turns the crank. The wheel zooms, and a drag
+A held key repeats. Fingers act as the mouse. A gamepad's buttons are keys. The wheel zooms, and a drag
 pans or moves the crank, the chart's cursor, a joint or a value.
 """
 
@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from itertools import zip_longest
-from math import dist, isfinite, isnan, log
+from math import dist, isnan, log
 from typing import Literal, Protocol
 
 import pygame
@@ -19,11 +20,11 @@ from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import OwnFile
 from linkanim.player.action import Action
 from linkanim.player.commands import line_asks, pressed, slid, slides
-from linkanim.player.keys import Bind, ModeKeys, Press, bind_of, button_name, hat_name, key_of
+from linkanim.player.keys import Bind, ModeKeys, Press, bind_of
 from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
 from linkanim.player.state import NEAR_HAND, REACH, STILL, State
-from linkanim.scenes.editing import phase_along, phase_towards
+from linkanim.scenes.editing import phase_towards
 
 # The keyboard: key events become presses, and a held key an action that repeats.
 
@@ -183,102 +184,49 @@ def _mouse(kind: int, at: Place) -> Event:
     return Event(kind, pos=at, button=1)
 
 
-# Gamepads: which are plugged in, what their buttons mean, where the left stick turns the crank to.
+# A gamepad's buttons are keys, by the numbers that most gamepads give them.
 
-PAD_EVENTS = (
-    pygame.JOYDEVICEADDED,
-    pygame.JOYDEVICEREMOVED,
-    pygame.JOYAXISMOTION,
-    pygame.JOYHATMOTION,
-    pygame.JOYBUTTONDOWN,
-    pygame.JOYBUTTONUP,
-)
+PAD_EVENTS = (pygame.JOYDEVICEADDED, pygame.JOYHATMOTION, pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP)
 _LOOKED_FOR_AFTER = 30
 """Frames after which gamepads are looked for: the first picture does not wait for it."""
-_DEAD_ZONE = 0.4
-"""A stick that is no further out than this share of its range counts as released."""
-
-
-class Pad(NamedTuple):
-    """A gamepad, held open so that its events come, and what has to be known once it is gone."""
-
-    opened: pygame.joystick.JoystickType
-    name: str
-    has_hat: bool
+_BUTTONS = ("space", "escape", "d", "n", "shift+tab", "tab", "h", "o")
+_HAT = {(0, 1): "up", (0, -1): "down", (-1, 0): "left", (1, 0): "right"}
 
 
 class Pads:
-    """Knows the gamepads that are plugged in, the stick's last position, and the held button."""
+    """Holds gamepads open, so that their events come, and knows the button that is held."""
 
     def __init__(self) -> None:
-        self._pads: dict[int, Pad] = {}
-        self._stick, self._moved = [0.0, 0.0], False
+        self._opened: list[pygame.joystick.JoystickType] = []
         self._repeats = Repeats()
-        self._frames: int | None = _LOOKED_FOR_AFTER
+        self._frames = _LOOKED_FOR_AFTER
 
     def look(self, frames: int) -> None:
         """Look once for gamepads, some frames after the window has opened; later ones come as events."""
-        if self._frames is None:
-            return
-        self._frames -= frames
-        if self._frames <= 0:
-            self._frames = None
+        if 0 < self._frames <= frames:
             pygame.joystick.init()
+        self._frames = max(self._frames - frames, 0)
 
     def actions(self, event: Event, mode: ModeKeys, frame: int) -> tuple[Action, ...]:
-        """Return the actions of an event; a stick's position is only remembered, for `turned`."""
-        match event.type:
-            case pygame.JOYDEVICEADDED:
-                return self._plugged_in(event.device_index)
-            case pygame.JOYDEVICEREMOVED if self._pads.pop(event.instance_id, None):
-                return (Action("pad", next((pad.name for pad in self._pads.values()), "")),)
-            case pygame.JOYAXISMOTION if event.axis in (0, 1) and isfinite(event.value):
-                self._stick[event.axis], self._moved = event.value, True
-            case pygame.JOYBUTTONDOWN:
-                return self._pressed(button_name(event.button, hat=self._has_hat(event)), mode, frame)
-            case pygame.JOYHATMOTION:
-                return self._pressed(hat_name(*event.value), mode, frame)
-            case pygame.JOYBUTTONUP:
-                self._repeats.begin(None, frame)
-        return ()
-
-    def turned(self, state: State) -> tuple[Action, ...]:
-        """Return the action that turns the crank as the stick has moved, from both its axes."""
-        moved, self._moved = self._moved, False
-        stick = complex(self._stick[0], -self._stick[1])
-        if not moved or abs(stick) <= _DEAD_ZONE or state.mode in ("list", "find", "shelf"):
-            return ()
-        return (Action("scrub", phase_along(state.displayed, state.phase, stick / max(abs(stick), 1.0))),)
+        """Return the actions of an event: those of the key for which a button stands."""
+        key = ""
+        if event.type == pygame.JOYDEVICEADDED:
+            with suppress(pygame.error):  # pulled out before its event came
+                self._opened.append(pygame.joystick.Joystick(event.device_index))
+        elif event.type == pygame.JOYHATMOTION:
+            key = _HAT.get(event.value, "")
+        elif event.type == pygame.JOYBUTTONDOWN:
+            key = next(iter(_BUTTONS[event.button : event.button + 1]), "")
+        if key == "space" and mode.name not in ("play", "paused"):
+            key = "return"
+        press = Press(key.removeprefix("shift+"), shift=key.startswith("shift+"))
+        bind = bind_of(press, mode) if key else None
+        self._repeats.begin(bind, frame)
+        return (bind.action,) if bind else ()
 
     def repeated(self, frame: int) -> tuple[Action, ...]:
         """Return the held button's action when it is due again."""
         return self._repeats.due(frame)
-
-    def _plugged_in(self, index: int) -> tuple[Action, ...]:
-        try:
-            pad = pygame.joystick.Joystick(index)
-            found = Pad(pad, pad.get_name(), pad.get_numhats() > 0)
-            self._pads[pad.get_instance_id()] = found
-        except pygame.error:  # pulled out before its event came
-            return ()
-        return (Action("pad", found.name),)
-
-    def _has_hat(self, event: Event) -> bool:
-        """Return whether the gamepad of an event has its D-pad as a hat, as most have."""
-        pad = self._pads.get(getattr(event, "instance_id", -1))
-        return pad is None or pad.has_hat
-
-    def _pressed(self, name: str, mode: ModeKeys, frame: int) -> tuple[Action, ...]:
-        bind = _bound(name, mode)
-        self._repeats.begin(bind, frame)
-        return (bind.action,) if bind else ()
-
-
-def _bound(name: str, mode: ModeKeys) -> Bind | None:
-    """Return the bind of a button, that of its key; None where it has none."""
-    key = key_of(name, listed=mode.name not in ("play", "paused"))
-    shift = key.startswith("shift+")
-    return bind_of(Press(key.removeprefix("shift+"), shift=shift), mode) if key else None
 
 
 # The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value.

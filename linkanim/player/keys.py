@@ -1,4 +1,4 @@
-"""List all keys and gamepad buttons in one table: window, help, `--help` and the manual read it."""
+"""List the keys that always hold in one table: window, help, `--help` and the manual read it."""
 
 from __future__ import annotations
 
@@ -10,63 +10,6 @@ from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Value
-
-# The one table of gamepad buttons: which key each stands for; window, help and README read it.
-#
-# Buttons are named by their place: the lower, right, left and upper of four are A, B, X, Y on one make
-# and ×, ○, □, △ on another. Nothing here needs pygame.
-
-
-class PadRow(NamedTuple):
-    """One line of the help: the buttons as they are written, what they do, the keys that they stand for.
-
-    Where there are two keys, the second one holds in an open list.
-    """
-
-    written: str
-    words: str
-    keys: Mapping[str, tuple[str, ...]]
-
-
-_WAYS = ("up", "down", "left", "right")
-PAD: tuple[PadRow, ...] = (
-    PadRow("left stick", "turn the crank to the stick's angle", {}),
-    PadRow("A, ×", "play / pause; Enter in a list", {"lower": ("space", "return")}),
-    PadRow("B, ○", "Esc", {"right": ("escape",)}),
-    PadRow("X, □", "direction", {"left": ("d",)}),
-    PadRow("Y, △", "names", {"upper": ("n",)}),
-    PadRow("D-pad", "the arrow keys", {f"pad {way}": (way,) for way in _WAYS}),
-    PadRow("LB, RB; L1, R1", "the mechanism before, the next", {"before": ("shift+tab",), "next": ("tab",)}),
-    PadRow("Start, Options", "the shelf", {"start": ("o",)}),
-    PadRow("Back, Share", "help", {"back": ("h",)}),
-)
-"""Every button that does something, in the order in which the help shows them."""
-
-_KEYS: Mapping[str, tuple[str, ...]] = {name: keys for row in PAD for name, keys in row.keys.items()}
-_ALIKE = ("lower", "right", "left", "upper")
-_WITH_HAT = (*_ALIKE, "before", "next", "back", "start")
-_OF_WAYS = tuple(f"pad {way}" for way in _WAYS)
-_WITHOUT_HAT = (*_ALIKE, "back", "", "start", "", "", "before", "next", *_OF_WAYS)
-"""The buttons in the order in which the two usual layouts number them, by whether the D-pad is a hat."""
-
-
-def button_name(number: int, *, hat: bool) -> str:
-    """Return a button's name; empty for a button that has no meaning."""
-    names = _WITH_HAT if hat else _WITHOUT_HAT
-    return names[number] if 0 <= number < len(names) else ""
-
-
-def hat_name(right: int, up: int) -> str:
-    """Return the name of a D-pad's direction; empty where it is released."""
-    if up:
-        return "pad up" if up > 0 else "pad down"
-    return "" if not right else "pad right" if right > 0 else "pad left"
-
-
-def key_of(name: str, *, listed: bool) -> str:
-    """Return the key that a button stands for, in an open list or not; empty where there is none."""
-    return next(iter(_KEYS.get(name, ())[-1 if listed else 0 :]), "")
-
 
 # The one key table: the window, the help overlay, `--help` and the manual all read it.
 #
@@ -196,7 +139,6 @@ KEYS: Table = {
             _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0) + on("0 kp0 home", "fit"),
         ),
         KeyRow("L (Shift: lit / flat)", "light / dark", _of_look("theme") + _of_look("material")),
-        KeyRow("U", "sounds: dead centres and limits", on("u", "sounds")),
         KeyRow("F11", "full screen", on("f11", "fullscreen")),
         KeyRow(
             "F10, right click",
@@ -335,9 +277,6 @@ LAST_BAR = (
 )
 """Commands that stand on several bars."""
 
-PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
-"""What the buttons of a gamepad do."""
-
 
 class TypedKeys(NamedTuple):
     """How printable keys are typed in a mode: the action, and the keys that keep their meaning until then.
@@ -441,7 +380,7 @@ def _names(press: Press) -> tuple[str, ...]:
 
 BESIDE_GAMES = frozenset(
     {
-        *("play", "help", "find", "theme", "material", "zoom", "fit", "fullscreen", "sounds"),
+        *("play", "help", "find", "theme", "material", "zoom", "fit", "fullscreen"),
         *("pan", "record", "taking", "screenshot", "svg", "quit"),
     }
 )
@@ -476,7 +415,6 @@ _APART: Mapping[Action, str] = {
     Action("zoom", (1.0, 0.0, 0.0)): "nearer",
     Action("zoom", (-1.0, 0.0, 0.0)): "farther",
     Action("fit"): "fit",
-    Action("sounds"): "sounds",
     Action("edit"): "edit dimensions",
     Action("numbers"): "edit dimensions",
     Action("shelf"): "the shelf",
@@ -638,12 +576,9 @@ def _as_written(key: str) -> str:
     return "+".join([*map(str.capitalize, held), _WRITTEN.get(last, last.capitalize())])
 
 
-def help_groups(mode: ModeKeys, *, pad: bool = False) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
-    """Return (subject, its lines of keys and what they do) as the help overlay shows them.
-
-    With a `pad` plugged in, its buttons are there, too.
-    """
-    table = {**(mode.table or KEYS), **(PAD_KEYS if pad else {})}
+def help_groups(mode: ModeKeys) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """Return (subject, its lines of keys and what they do) as the help overlay shows them."""
+    table = mode.table or KEYS
     return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from linkanim.player.building import OpenSheet, SheetNumbers
 from linkanim.player.edits import Dimensions
 from linkanim.player.finding import Finder
-from linkanim.player.keys import KEYS, OF_MODES, PAD_KEYS, ModeKeys
+from linkanim.player.keys import KEYS, OF_MODES, ModeKeys
 from linkanim.player.lesson import CaptionLine
 from linkanim.player.listing import Listing
 from linkanim.player.making import Layering
@@ -50,7 +50,7 @@ def key_names() -> tuple[str, ...]:
 def _lines() -> Iterator[tuple[str, str]]:
     """Yield all lines of the table, those of a mode under its subject."""
     yield from ((row.keys, row.words) for rows in KEYS.values() for row in rows)
-    tables = (*(one.table for one in KEYS_OF.values()), PAD_KEYS)
+    tables = (one.table for one in KEYS_OF.values())
     lines = (
         (f"{subject}: {row.keys}", row.words) for one in tables for subject in one for row in one[subject]
     )

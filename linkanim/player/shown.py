@@ -303,7 +303,7 @@ def _lasting(state: State, over: Hover | None = None) -> Overlay:
         paused=_stands(state) and not state.game,
         noted=True,
         recording=_recording(state),
-        help=help_groups(state.keys, pad=state.pad) if state.help else None,
+        help=help_groups(state.keys) if state.help else None,
         construction=state.constructed,
         slider=_slider(state),
         hover=over,

@@ -834,11 +834,10 @@ class State:
     `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
     travel, that is being typed while paused. `modes` are open one on another. `beneath` is the state under
     a running game, and `games` reads a game from its words. Recordings are made as `take` says.
-    `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether
-    a gamepad is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted
-    scene, `also` are places that it keeps in sight beside that. `sounds` says whether the motion is heard,
-    None where the user has not chosen. With `reduced_motion` the picture changes at once, without fades,
-    glides and moving views.
+    `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input. `home` is the
+    part of the plane that a game keeps visible, if not the fitted scene, `also` are places that it keeps in
+    sight beside that. With `reduced_motion` the picture changes at once, without fades, glides and moving
+    views.
 
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
@@ -851,7 +850,7 @@ class State:
     be proposed), "save" (the file), "save_new" (a name), "reload", "quit", "pencil" and "poses" (these
     begin), "search", "anew" and "follow" (answers to the sketch: with the shown one among them, without it,
     or that one alone), "layers" (of the scene), "make" (its parts), "begin" (a game, with its words), "score"
-    (with a game's result to be kept), "sound" (a cue), and "report" (with the text of a fault's report).
+    (with a game's result to be kept), and "report" (with the text of a fault's report).
     """
 
     scene: Scene
@@ -883,8 +882,6 @@ class State:
     from_title: bool = False
     kiosk: bool = False
     by_itself: bool = False
-    pad: bool = False
-    sounds: bool | None = None
     reduced_motion: bool = False
     home: Box | None = None
     also: tuple[complex, ...] = ()
@@ -1003,11 +1000,6 @@ class State:
             return self.building.saved or None
         name, file = self.editing.saved or ("", "")
         return file if name == self.scene.name else None
-
-    @property
-    def is_audible(self) -> bool:
-        """Whether sounds are on: where U switched them on, and by default only in games."""
-        return (self.game is not None and self.game.covers) if self.sounds is None else self.sounds
 
     @property
     def is_covered(self) -> bool:

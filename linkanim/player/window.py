@@ -39,7 +39,6 @@ from linkanim.player.naming import Naming
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
 from linkanim.player.shown import lasting, overlay
-from linkanim.player.sound import Speaker, cues
 from linkanim.player.state import Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
@@ -116,7 +115,6 @@ class Window:
             Fingers(),
             Pads(),
         )
-        self._speaker = Speaker()
         self._notes: list[str] = []
         self._photo: str | None = None
         self._windowed = screen.frame()
@@ -141,11 +139,9 @@ class Window:
         """
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
-        self._now, before = self.state.frame + frames, self.state
+        self._now = self.state.frame + frames
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
-        for cue in cues(before, self.state):
-            self._speaker.play(cue)
         self._show()
         return self._open
 
@@ -162,7 +158,6 @@ class Window:
         finally:
             if self._drafts:
                 self._drafts.close()
-            self._speaker.close()
             for process in (self._renderings, self._following, self._layering, self._making):
                 if process:
                     process.close()
@@ -199,9 +194,6 @@ class Window:
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
                 yield from self.resolved(action)
-        for action in self._pads.turned(self.state):
-            yield from self._off_the_tape(action)
-            yield action
         for action in self._mouse.held(self.screen) if self._good else ():
             yield from self._off_the_tape(action)
             yield from self.resolved(action)
@@ -389,8 +381,6 @@ class Window:
                 self._notes.append(files.where(files.vector(self.state, pygame.display.get_window_size())))
             case "share":
                 self._notes.append(files.where(files.page(self.state)))
-            case "sound" if self.state.is_audible:
-                self._speaker.play(str(effect.value))
             case "report":
                 self._report(str(effect.value))
             case "name":

@@ -161,9 +161,9 @@ def test_esc_leaves_full_screen_but_in_a_kiosk(player: Player, monkeypatch: pyte
 
 
 def test_what_is_the_window_s_stays_when_a_door_is_gone_through() -> None:
-    state = replace(titled(), from_title=True, kiosk=True, sounds=True, pad=True)
+    state = replace(titled(), from_title=True, kiosk=True)
     after = advance(state, [Action("option", 0)])
-    assert (after.mode, after.from_title, after.kiosk, after.sounds, after.pad) == ("play", *[True] * 4)
+    assert (after.mode, after.from_title, after.kiosk) == ("play", True, True)
 
 
 def test_esc_and_f3_lead_back_to_it(player: Player) -> None:

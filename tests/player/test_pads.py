@@ -1,11 +1,8 @@
-"""Gamepads: the left stick, buttons, and plugging in and out, as events that the window really gets."""
+"""A gamepad's buttons are keys, as events that the window really gets; it may come and go."""
 
 from __future__ import annotations
 
-import cmath
-import math
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,36 +11,25 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.player import screen
-from linkanim.player.keys import PAD, RUNNING, help_groups
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
-
-SOUTH, EAST, START, RB = 0, 1, 7, 5
 
 
 class Pad:
     """Stands where a plugged-in gamepad would."""
 
     def __init__(self, index: int) -> None:
-        self.index = index
-
-    def get_name(self) -> str:
-        return f"Pad {self.index}"
-
-    def get_instance_id(self) -> int:
-        return 10 + self.index
-
-    def get_numhats(self) -> int:
-        return 1 - self.index
+        if index > 1:
+            raise pygame.error("Invalid joystick device number")
 
 
-@pytest.fixture(params=["crank-rocker"])
-def pads(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
+@pytest.fixture
+def pads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(pygame.joystick, "Joystick", Pad)
     with screen.opened(SIZE):
-        player = Player(begin(load(request.param)))
+        player = Player(begin(load("crank-rocker")))
         yield player
         player.window.close()
 
@@ -52,137 +38,59 @@ def post(kind: int, **values: Any) -> None:
     pygame.event.post(pygame.event.Event(kind, instance_id=10, **values))
 
 
-def push(player: Player, way: complex) -> State:
-    """Push the left stick, whose axes count right and down, and let a frame go by."""
-    post(pygame.JOYAXISMOTION, axis=0, value=way.real)
-    post(pygame.JOYAXISMOTION, axis=1, value=-way.imag)
-    player.tick()
-    return player.state
+# What each button does, by its number, or by where the D-pad is pushed.
+BUTTONS: dict[str, tuple[int | tuple[int, int], Callable[[State], object]]] = {
+    "A pauses": (0, lambda state: state.clock.paused),
+    "X turns round": (2, lambda state: state.clock.direction < 0),
+    "Y shows names": (3, lambda state: state.look.names),
+    "RB: the next": (5, lambda state: state.place == 1),
+    "Back: help": (6, lambda state: state.help),
+    "Start: the shelf": (7, lambda state: state.of(OpenShelf)),
+    "up: faster": ((0, 1), lambda state: state.clock.level == 1),
+    "right: a step on": ((1, 0), lambda state: state.clock.paused and state.clock.steps == 1),
+}
 
 
-def button(player: Player, number: int) -> State:
-    post(pygame.JOYBUTTONDOWN, button=number)
-    post(pygame.JOYBUTTONUP, button=number)
-    player.tick()
-    return player.state
-
-
-@pytest.mark.parametrize("reach", [0.5, 1.0, 1.3])
-def test_the_crank_points_where_the_stick_does(pads: Player, reach: float) -> None:
-    for degrees in range(-180, 181, 15):
-        state = push(pads, cmath.rect(reach, math.radians(degrees)))
-        off = state.scene.pose(state.phase, 0).coordinate - math.radians(degrees)
-        assert abs(math.remainder(off, math.tau)) < math.radians(1)
-        assert state.clock.paused
-
-
-def test_a_stick_that_is_let_go_leaves_the_crank_alone(pads: Player) -> None:
-    before = push(pads, 1j).phase
-    assert push(pads, 0.3 + 0.2j).phase == before
-    assert push(pads, 0j).phase == before
-
-
-@pytest.mark.parametrize("pads", ["double-rocker"], indirect=True)
-def test_a_swing_follows_the_stick_to_its_limits(pads: Player) -> None:
-    low, high = pads.state.scene.info.input_range
-    middle = (low + high) / 2
-    for angle, wanted in ((middle, middle), (high + 0.3, high), (low - 0.3, low)):
-        state = push(pads, cmath.rect(1.0, angle))
-        found = state.scene.pose(state.phase, 0).coordinate
-        assert math.remainder(found - wanted, math.tau) == pytest.approx(0, abs=math.radians(1))
-
-
-@pytest.mark.parametrize("pads", ["driven-piston"], indirect=True)
-def test_a_slider_that_drives_is_as_far_out_as_the_stick(pads: Player) -> None:
-    low, high = pads.state.scene.info.input_range
-    angle = pads.state.scene.linkage.joint(pads.state.scene.linkage.drive.joint).slides[0].angle
-    for share in (-1.0, -0.5, 0.5, 1.0):
-        state = push(pads, share * cmath.rect(1.0, angle))
-        travel = state.scene.pose(state.phase, 0).coordinate
-        assert travel == pytest.approx((low + high) / 2 + share * (high - low) / 2, abs=1e-3 * (high - low))
-
-
-def test_buttons_do_what_their_keys_do(pads: Player) -> None:
-    assert button(pads, SOUTH).clock.paused
-    assert not button(pads, SOUTH).clock.paused
-    assert button(pads, RB).scene.name != "crank-rocker"
-    shelf = button(pads, START).of(OpenShelf)
-    assert shelf
-    post(pygame.JOYHATMOTION, value=(1, 0))
+@pytest.mark.parametrize("case", BUTTONS)
+def test_a_button_does_what_its_key_does(pads: Player, case: str) -> None:
+    pressed, is_done = BUTTONS[case]
+    before = pads.state.place
+    if isinstance(pressed, int):
+        post(pygame.JOYBUTTONDOWN, button=pressed)
+    else:
+        post(pygame.JOYHATMOTION, value=pressed)
     pads.tick()
-    moved = pads.state.of(OpenShelf)
-    assert moved
-    assert moved == replace(shelf, chosen=shelf.chosen + 1, top=moved.top)
-    assert button(pads, SOUTH).of(OpenShelf) is None  # takes what is chosen
-    assert [button(pads, number).of(OpenShelf) is None for number in (START, EAST)] == [False, True]
+    if "next" in case:
+        assert pads.state.place == before + 1
+    else:
+        assert is_done(pads.state)
 
 
-def test_a_d_pad_that_is_held_repeats_until_it_is_let_go(pads: Player) -> None:
-    button(pads, SOUTH)
+def test_with_something_open_the_lower_button_is_enter_and_the_right_one_escape(pads: Player) -> None:
+    for button in (7, 1, 7, 0):
+        post(pygame.JOYBUTTONDOWN, button=button)
+        pads.tick()
+        assert bool(pads.state.of(OpenShelf)) == (button == 7)
+    assert not pads.state.clock.paused
+
+
+def test_a_held_direction_repeats_until_it_is_let_go(pads: Player) -> None:
     post(pygame.JOYHATMOTION, value=(1, 0))
     pads.tick()
     steps = pads.state.clock.steps
-    pads.tick(40)
-    held = pads.state.clock.steps
-    assert held > steps + 3
+    pads.tick(60)
+    pads.tick()
+    assert pads.state.clock.steps > steps
     post(pygame.JOYHATMOTION, value=(0, 0))
-    pads.tick(40)
-    assert pads.state.clock.steps == held
-
-
-@pytest.mark.parametrize(("index", "number"), [(0, 7), (1, 6)], ids=["hat", "d-pad of buttons"])
-def test_help_names_the_buttons_once_one_is_plugged_in(pads: Player, index: int, number: int) -> None:
-    assert "gamepad" not in dict(help_groups(RUNNING))
-    pygame.event.post(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=index))
     pads.tick()
-    plugged = pads.state
-    assert plugged.pad
-    assert plugged.toast
-    assert f"Pad {index}" in plugged.toast.text
-    pygame.event.post(pygame.event.Event(pygame.JOYBUTTONDOWN, instance_id=10 + index, button=number))
-    pads.tick()
-    assert pads.state.of(OpenShelf) is not None  # Start, by the number that this one gives it
-    pygame.event.post(pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=10 + index))
-    pads.tick()
-    assert not pads.state.pad
-    written = [words for words, _ in dict(help_groups(RUNNING, pad=True))["gamepad"]]
-    assert written == [row.written for row in PAD]
+    steps = pads.state.clock.steps
+    pads.tick(60)
+    assert pads.state.clock.steps == steps
 
 
-def test_one_that_is_gone_before_its_event_comes_is_left_out(
-    pads: Player, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def gone(index: int) -> Pad:
-        raise pygame.error("Invalid joystick device number")
-
-    with monkeypatch.context() as patch:
-        patch.setattr(pygame.joystick, "Joystick", gone)
-        pygame.event.post(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=0))
-        assert pads.tick()
-    assert (pads.state.pad, pads.state.toast) == (False, None)
-
-
-def test_one_that_is_pulled_out_is_asked_nothing_any_more(
-    pads: Player, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def pulled(_: Pad) -> str:
-        raise pygame.error("joystick not initialized")
-
-    for index in (0, 1):
-        pygame.event.post(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=index))
-        pads.tick()
-    monkeypatch.setattr(Pad, "get_name", pulled)
-    monkeypatch.setattr(Pad, "get_numhats", pulled)
-    assert button(pads, SOUTH).clock.paused
+@pytest.mark.parametrize("index", [0, 7], ids=["there", "pulled out before its event came"])
+def test_a_pad_that_comes_or_is_gone_does_no_harm(pads: Player, index: int) -> None:
+    post(pygame.JOYDEVICEADDED, device_index=index)
     post(pygame.JOYDEVICEREMOVED)
-    pads.tick()
-    assert pads.state.toast
-    assert pads.state.toast.text.startswith("Pad 1: its left stick")
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
-def test_a_stick_that_is_nowhere_leaves_the_crank_alone(pads: Player, value: float) -> None:
-    before = push(pads, 1j).phase
-    post(pygame.JOYAXISMOTION, axis=0, value=value)
-    pads.tick()
-    assert (pads.state.phase, pads.state.toast) == (before, None)
+    post(pygame.JOYBUTTONDOWN, button=40)
+    assert pads.tick()

@@ -126,8 +126,8 @@ OUTSIDE = (
     *(Action("record", "gif"), Action("period", "mp4"), Action("take_into", "/home/me/one.gif")),
     *map(Action, ("screenshot", "svg", "share", "make", "save", "save_as", "erase_name", "take_name")),
     *(Action("write_name", "mine"), Action("open_file", "mine.toml"), Action("files", "mine.toml\t1")),
-    *map(Action, ("reload", "fullscreen", "quit", "close", "sounds", "stir", "take_toast")),
-    *(Action("note", "x"), Action("hint", "x"), Action("pad", "x")),
+    *map(Action, ("reload", "fullscreen", "quit", "close", "stir", "take_toast")),
+    *(Action("note", "x"), Action("hint", "x")),
     *map(Action, ("list", "menu", "shelf", "unsift")),
     *(Action("sift", "x"), *(Action(name, 1) for name in ("move", "point", "top"))),
 )
