@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field
-from functools import reduce
+from functools import partial, reduce
 
 import numpy as np
 
@@ -21,17 +21,18 @@ from linkanim.errors import AssemblyError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import FULL_TURN, HALF_TURN, Sum, exact_angle
 from linkanim.mechanics.arithmetic import FormGraph, Slope, Value, are_inputs, known, maximum, minimum, sqrt
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import MOTOR, Linkage
 from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS
 from linkanim.mechanics.motion import ResultLayout, layout, walked_rows
 from linkanim.mechanics.program import Array, Batch, Bools, batch
 from linkanim.mechanics.search import around
-from linkanim.mechanics.solver.assembly import find_loops, runs_back, turns_to_return
+from linkanim.mechanics.solver.assembly import find_loops, runs_back, side_of, turns_to_return
 from linkanim.mechanics.solver.closing import Assembly, Closing, Walk, walked
 from linkanim.mechanics.solver.input import InputState, Turn, swing_by_phase
 from linkanim.mechanics.solver.loop import Loop, gearings
 from linkanim.mechanics.solver.signed_root import Kind, Unlike
-from linkanim.mechanics.tolerances import CLEAR
+from linkanim.mechanics.tolerances import CLEAR, JUST_AFTER
 
 SAMPLES = 128
 """Phases of a turn of the quickest crank at which dyads down the chain are looked at."""
@@ -83,13 +84,11 @@ class LinkageForm:
     def uniform(self) -> bool:
         """Whether its linkages may be solved together.
 
-        A motor drives them, a swing goes over to the other closure at both ends, each dyad's own side names
-        its closure, and no links are solved together.
+        A motor drives them, they are made of dyads, and a swing goes over to the other closure at both ends.
         """
-        drive, joints = self.linkage.drive, self.linkage.joints
-        named = any(joint.named_from or joint.grouped for joint in joints)
-        alone = self.made is None or drive.retraced or named
-        return not alone and drive.actuator is MOTOR and self.linkage.near is self.linkage
+        drive, near = self.linkage.drive, self.linkage.near is self.linkage
+        alone = self.made is None or drive.retraced or group_of(self.linkage) is not None
+        return near and not alone and drive.actuator is MOTOR
 
     def solved(
         self, lengths: Sequence[Array], phases: Array, rates: tuple[float, float], derivatives: int
@@ -195,33 +194,52 @@ def _walked(form: LinkageForm, linkage: Linkage, x: Value, pace: Slope) -> Walk:
     for loop in loops.values():
         if Kind.CHANGE_POINT in (loop.root.u.kind, loop.root.w.kind):
             raise Unlike
-    signs = {joint.name: joint.named_sign for joint in linkage.joints if joint.named_sign is not None}
-    limiting = [name for name, loop in loops.items() if loop.limits]
-    if not limiting:
-        path = Turn(linkage.drive.start, 1)
-        return walked(Assembly(linkage, loops, path, signs), path.state(x, pace))
+    limiting = [(name, loop) for name, loop in loops.items() if loop.limits]
     if len(limiting) > 1:
         raise Unlike
-    name = limiting[0]
-    state = _swinging(linkage, loops[name], runs_back(linkage, name, loops[name]), (x, pace))
-    return walked(Assembly(linkage, loops, Turn(linkage.drive.start, 1), signs), state)
+    turning = Turn(linkage.drive.start, 1)
+    signs = {joint.name: joint.named_sign for joint in linkage.joints if joint.named_sign is not None}
+    found = [
+        (Assembly(linkage, loops, turning, one, of_inputs=True), moved)
+        for moved in ([_swing(linkage, *limiting[0], n) for n in (0, 1)] if limiting else [turning.state])
+        for one in (signs, *({**signs, name: -signs[name]} for name in _named(linkage)))
+    ]
+    assembly, moved = next((one for one in found if _is_as_named(*one)), found[0])
+    return walked(assembly, moved(x, pace))
 
 
-def _swinging(linkage: Linkage, loop: Loop, below: bool, given: tuple[Value, Slope]) -> InputState:
-    """Return the state of an input that one loop limits; `below` where its range lies right of the ground.
+def _named(linkage: Linkage) -> list[str]:
+    """Return the dyads that are named by another joint's side."""
+    return [joint.name for joint in linkage.joints if joint.named_from]
 
-    Of two ranges it is the one that contains a stated start.
+
+Moved = Callable[[Value, Slope], InputState]
+"""The input's state at a phase that runs at a pace."""
+
+
+def _is_as_named(assembly: Assembly, moved: Moved) -> bool:
+    """Tell whether dyads that are named by another joint's side lie as named just after the start."""
+    namings = [naming for joint in assembly.linkage.joints if (naming := joint.named_from)]
+    points = walked(assembly, moved(JUST_AFTER, Slope(0.0))).points if namings else {}
+    return all(side_of(points, *naming) > 0 for naming in namings)
+
+
+def _swing(linkage: Linkage, name: str, loop: Loop, n: int) -> Moved:
+    """Return the path of an input that one loop limits: of two ranges the `n`th best.
+
+    The best one contains a stated start, or else lies left of the ground line.
     """
     root, start = loop.root, linkage.drive.stated_start
     if min(known(root.u.most), known(root.w.most)) <= 0:
         raise AssemblyError
     if root.u.kind is Kind.LIMIT is root.w.kind:
         least, most = root.w.short.constant, root.u.reach.constant
+        below = runs_back(linkage, name, loop)
         if start is not None:
             below = _lies_below(loop, start, below)
-        sense = -1.0 if below else 1.0
+        sense = -1.0 if below == (n == 0) else 1.0
         low, high = root.reference + Sum(least * sense), root.reference + Sum(most * sense)
-        low, high = (high, low) if below else (low, high)
+        low, high = (high, low) if sense < 0 else (low, high)
         middle, way = root.reference + Sum((least + most) * (0.5 * sense)), (most - least) * 0.5
     else:
         limited = root.u if root.u.kind is Kind.LIMIT else root.w
@@ -231,7 +249,7 @@ def _swinging(linkage: Linkage, loop: Loop, below: bool, given: tuple[Value, Slo
     turns = 0 if start is None else round((start - known(middle.constant)) / math.tau)
     on = FULL_TURN.times(float(turns))
     low, high, middle = (angle + on if turns else angle for angle in (low, high, middle))
-    return swing_by_phase(*given, low, high, (middle, way))
+    return partial(swing_by_phase, low=low, high=high, span=(middle, way))
 
 
 def _lies_below(loop: Loop, start: float, otherwise: bool) -> bool:

@@ -26,7 +26,7 @@ KINDS = (
 )
 
 # Turning and swinging inputs, limits on one side and on both, each kind of dyad, gears, dyads down the chain,
-# forms that are read one by one (a closure named by another joint, a cylinder, a rigid triangle of bars).
+# a closure named by another joint, and forms that are read one by one (a cylinder, a rigid triangle of bars).
 FORMS = [
     *("crank-rocker", "drag-link", "chebyshev-line", "double-rocker", "triple-rocker", "slider-crank"),
     *("inverted-slider-crank", "oscillating-cylinder", "scotch-yoke", "isosceles-slider", "press", "andrews"),

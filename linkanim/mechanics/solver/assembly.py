@@ -196,12 +196,12 @@ def _is_as_named(assembly: Assembly) -> bool:
         return True
     points = walk_at(assembly, Graph().input("x"), Slope(0.0)).points
     # Compiled, so that only what the named joints need is worked out: what follows may not close yet.
-    program = batch({"x": True}, [_side(points, *naming) for naming in named])
+    program = batch({"x": True}, [side_of(points, *naming) for naming in named])
     with np.errstate(all="ignore"):
         return bool((program(np.array([JUST_AFTER])) > 0).all())
 
 
-def _side(points: Mapping[str, MovingPoint], side: int, *line: str) -> Value:
+def side_of(points: Mapping[str, MovingPoint], side: int, *line: str) -> Value:
     """Return a number that is positive where a joint lies on the side of a line by which it is named."""
     b, p, q = (points[name].position for name in line)
     return (q - p).cross(b - p) * float(side)

@@ -34,7 +34,6 @@ from linkanim.mechanics.angles import (
 from linkanim.mechanics.arithmetic import (
     Constant,
     Expr,
-    FormGraph,
     Moving,
     MovingPoint,
     Slope,
@@ -473,6 +472,8 @@ class Assembly:
     unscale: float = 1.0
     chain: Mapping[str, ChainRoot] = field(default_factory=dict)
     """The roots, of dyads on moving points, that vanish somewhere on the path."""
+    of_inputs: bool = False
+    """Whether its lengths are inputs of the program."""
     course: GroupMotion | None = None
     """The motion of its group beyond dyads."""
 
@@ -667,8 +668,7 @@ class Walk:
 
     def _length(self, n: int, ends: tuple[str, str]) -> Value:
         """Return how far two joints of one body are apart: as known, or worked out in many digits."""
-        graph = self.state.angle.graph if isinstance(self.state.angle, Expr) else None
-        if self.exact or isinstance(graph, FormGraph):
+        if self.exact or self.assembly.of_inputs:
             one, other = (dict(self.linkage.joint(end).bars) for end in ends)
             bar = None if self.exact else one.get(ends[1], other.get(ends[0]))
             arm = self._arm(self.pieces[n], *ends)
