@@ -120,8 +120,8 @@ def _staged(text: str) -> tuple[int, int, LessonStep]:
 
 
 def answer(_: State, after: State) -> str | None:
-    """Say which step is shown."""
-    return "{} / {}".format(*after.lesson) if after.lesson else None
+    """Say which step is shown, where no caption stands in that place."""
+    return "{} / {}".format(*after.lesson) if after.lesson and not after.look.caption else None
 
 
 def leave(state: State, _: None) -> State:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from zipfile import ZipFile
 
 import pygame
 import pytest
@@ -296,6 +298,11 @@ def test_it_is_recorded_as_one_file_and_as_one_a_step(here: Path, capsys: pytest
     assert main(["record", "mine.toml", "-o", "all.gif", "--names"]) == 2
     assert "a lesson keeps its own" in capsys.readouterr().err
     assert main(["record", "press", "-o", "press.gif", "--each"]) == 2
+    assert main(["record", "mine.toml", "-o", "all.pptx", *small]) == 0
+    with ZipFile("all.pptx") as deck:
+        assert (
+            sum(re.fullmatch(r"ppt/slides/slide\d+\.xml", name) is not None for name in deck.namelist()) == 2
+        )
 
 
 def test_the_text_of_a_step_reads_back() -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import shutil
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkanim.cli import main
 from linkanim.cli.alternative import alternative, plain
@@ -32,6 +32,9 @@ from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
 from linkanim.scenes import load
 from linkanim.scenes.files import is_lesson
 from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.player.lesson import LessonStep
 
 _OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", "construction")
 """Options for which a tape has its own values, beside those of the look."""
@@ -168,7 +171,7 @@ def _is_tape(options: Namespace) -> bool:
 
 
 def _record_lesson(options: Namespace, preset: Preset) -> None:
-    """Record a lesson, in one file or in one for each step; print the paths."""
+    """Record a lesson: in one file, in one for each step, or as a slide for each; print the paths."""
     from linkanim.player.lesson import read
     from linkanim.recorder.lessons import record_lesson, record_step
 
@@ -178,35 +181,47 @@ def _record_lesson(options: Namespace, preset: Preset) -> None:
             word = "a further scene" if name == "more" else f"--{name.replace('_', '-')}"
             raise BadInput(f"{word} is not for a lesson; leave it out")
     steps, usual = read(Path(options.scene)), f"{_stem(options.scene)}{preset.suffix}"
-    look = Look(theme=options.theme, material=options.material)
-    how: dict[str, Any] = {
-        "size": options.size or preset.size,
-        "fps": options.fps or preset.fps,
-        "look": look,
-    }
-    named = Path(options.output or usual)
-    files = (
-        [named.with_stem(f"{named.stem}-{n}") for n in range(1, len(steps) + 1)] if options.each else [named]
-    )
-    given = options.output is not None
-    targets = [
-        checked_output(
-            str(file) if given else None,
-            file.name,
-            SUFFIXES,
-            [options.scene],
-            ours=options.no_clobber,
-        )
-        for file in files
-    ]
-    for n, target in enumerate(targets):
+    how: dict[str, Any] = {"size": options.size or preset.size, "fps": options.fps or preset.fps}
+    how["look"] = Look(theme=options.theme, material=options.material)
+
+    def target(name: Path) -> Output:
+        named = None if options.output is None else str(name)
+        suffixes = (*SUFFIXES, *(() if options.each else (_DECK,)))
+        return checked_output(named, name.name, suffixes, [options.scene], ours=options.no_clobber)
+
+    whole = Path(options.output or usual)
+    if not options.each:
+        found = target(whole)
         with bar(shown=options.progress) as progress:
-            if options.each:
-                recording = record_step(steps[n], target, **how, progress=progress)
+            if found.path.suffix.lower() == _DECK:
+                summary = _deck_of(steps, found, how)
             else:
-                recording = record_lesson(steps, target, **how, progress=progress)
+                summary = record_lesson(steps, found, **how, progress=progress).summary
+        print(summary, file=sys.stderr)
+        print(found.path)
+        return
+    targets = [target(whole.with_stem(f"{whole.stem}-{n}")) for n in range(1, len(steps) + 1)]
+    for step, one in zip(steps, targets, strict=True):
+        with bar(shown=options.progress) as progress:
+            recording = record_step(step, one, **how, progress=progress)
         print(recording.summary, file=sys.stderr)
         print(recording.path)
+
+
+def _deck_of(steps: Sequence[LessonStep], target: Output, how: dict[str, Any]) -> str:
+    """Write a slide for each step, its caption as the notes; return what was written."""
+    from linkanim.paper.deck import DeckSlide, deck
+    from linkanim.recorder.lessons import record_step
+
+    slides = []
+    with TemporaryDirectory() as folder:
+        for n, step in enumerate(steps):
+            record_step(step, Output(gif := Path(folder) / f"{n}.gif"), **how)
+            notes = step.scene.look_at if step.look.caption else ""
+            slides.append(DeckSlide(gif.read_bytes(), how["size"], step.scene.title, notes))
+    with target.replacing() as part:
+        part.write_bytes(deck(slides, how["size"]))
+    return f"{target.path}: {len(slides)} slides, {target.path.stat().st_size / 1e6:.2f} MB"
 
 
 def letters_for(preset: Preset, size: tuple[int, int]) -> float:
