@@ -65,7 +65,7 @@ def run(seconds: float, curves: int, progress: Progress | None = None) -> list[P
 
 def _timed(points: Any, **options: Any) -> tuple[Any, float]:
     start = time.process_time()
-    return path(points, **options), time.process_time() - start
+    return path(points, prefer="exact", **options), time.process_time() - start
 
 
 def _random(count: int) -> PathRow:

@@ -758,9 +758,10 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         *_limits("sizes of the curve"),
         _takes(
             "--prefer",
-            choices=("exact", "compact", "angle"),
-            default="exact",
-            help="which answers come first: the most exact (default), compact, or easily driven ones",
+            choices=("balanced", "exact", "compact", "angle"),
+            default="balanced",
+            help="which answers come first: the one to build (default), the most exact, compact, or easily "
+            "driven ones",
         ),
         _value("--front FILE.csv", Path, "write the front of deviation, size and transmission angle"),
         _value("--round LENGTH", step, 'round all lengths to multiples of this, such as "0.1 mm"'),
@@ -807,6 +808,12 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "--output RANGE",
             str,
             'the range of the rocker, or of the slider, "80 mm" (default: any, or 100 mm)',
+        ),
+        _takes(
+            "--prefer",
+            choices=("balanced", "exact"),
+            default="balanced",
+            help="which answer comes first: the one to build (default), or the most exact",
         ),
         _value("--points N", count, "the number of precision points, 3 to 5 (default: as many as possible)"),
         _flag("--chebyshev", "keep Chebyshev's spacing of the precision points"),

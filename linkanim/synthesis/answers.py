@@ -111,6 +111,8 @@ class Fit(CouplerLinkage):
     task: PathTask = field(repr=False)
     exact: Fit | None = field(default=None, repr=False)
     """The answer before its lengths were rounded."""
+    most_exact: Fit | None = field(default=None, repr=False)
+    """The most exact answer of the search, whether it can be driven or not."""
     cognate: bool = False
     """Whether the answer is a Roberts cognate of an earlier one of its list."""
 

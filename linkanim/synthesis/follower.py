@@ -21,7 +21,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.synthesis import guidance
 from linkanim.synthesis.answers import NAME, Fit, answer_of
 from linkanim.synthesis.atlas import atlas
-from linkanim.synthesis.front import cards, cost, front_of, knee, searched_front, way_along, with_cognates
+from linkanim.synthesis.front import cards, cost, first_of, front_of, searched_front, way_along, with_cognates
 from linkanim.synthesis.guidance import GuidedLinkage, pose_answer_of
 from linkanim.synthesis.linkages import FOUR_BAR
 from linkanim.synthesis.path import task_of
@@ -165,7 +165,7 @@ class Follower:
 
 def _shown(front: Sequence[Fit], before: Fit | None) -> Fit:
     """Return the answer to be shown: the one that is shown already, unless another is much better."""
-    best = front[knee([fit.figures for fit in front])]
+    best = front[first_of([fit.figures for fit in front])]
     if before is None or cost(before.figures) > cost(best.figures) + _MUCH:
         return best
     return next((fit for fit in front if fit.apart(before) <= ALIKE), before)

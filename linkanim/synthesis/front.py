@@ -5,7 +5,7 @@ candidates are fitted at once, each within its own longest link and least transm
 
 Its parts, in reading order:
 
-- The front: which answers are on it, which one would be chosen, and a few that look different.
+- The front: which answers are on it, which one comes first, and a few that differ to a reader.
 - Search: fits within many pairs of limits, and answers along the front from the exact end to the compact end.
 """
 
@@ -15,21 +15,32 @@ import math
 from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import replace
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 
 from linkanim.frozen import NamedTuple
 from linkanim.synthesis.answers import Figures, Fit, answer_of, cognates_of, turning_cognates
 from linkanim.synthesis.atlas import CURVES, Candidates
-from linkanim.synthesis.fitting import PathTask, merit, refined
+from linkanim.synthesis.fitting import EXACTLY, PathTask, merit, refined
 from linkanim.synthesis.linkages import FOUR_BAR, Indices, Real
-from linkanim.synthesis.search import ALIKE, MATCHED, Pulse, spread, started, unwatched, verified
+from linkanim.synthesis.search import MATCHED, SAME, Pulse, spread, started, unwatched, verified
 
-# The front: which answers are on it, which one would be chosen, and a few that look different.
+# The front: which answers are on it, which one comes first, and a few that differ to a reader.
 
-Preference = Literal["exact", "compact", "angle"]
-PREFERENCES: tuple[Preference, ...] = ("exact", "compact", "angle")
+Answer = TypeVar("Answer")
+Preference = Literal["balanced", "exact", "compact", "angle"]
+PREFERENCES: tuple[Preference, ...] = ("balanced", "exact", "compact", "angle")
+_ENDS: tuple[Preference, ...] = ("exact", "compact", "angle")
+_DRIVEN = math.radians(29.9)
+"""From this transmission angle on, 30 degrees but for rounding, a linkage can be driven."""
+_DRIVEN_WITHIN = 2.0
+"""The factor of the best deviation within which an answer that can be driven comes first."""
+_OWN, _EXACT = 1e-5, 1e-11
+"""Deviations, as shares of the curve's size: below the first the curve is a linkage's own, and only answers
+that trace it come first; answers below the second are equally exact."""
+_OTHER, _ROUGHLY = Figures(1.25, 1.2, math.inf, math.radians(5)), 1e-4
+"""The factors, and the angle, by which figures differ to a reader, and the deviation that reads as zero."""
 _SEEN = 3e-3
 """A deviation that cannot be seen: answers below it are equally exact when one is chosen."""
 _TRADE = math.log(1.5, 2)
@@ -46,8 +57,6 @@ _FARTHEST, _TIMES = 0.03, 3.0
 """The largest deviation of an answer: this share of the curve's size, or so many times the best one."""
 _JAMS = math.radians(5)
 """Below this transmission angle a linkage nearly jams: such an answer is left out if there are others."""
-_FOLLOWED = 1e-4
-"""The deviation, as a share of the curve's size, below which answers on the front are equally exact."""
 _SLACK = Figures(1.01, 1.01, 1.01, math.radians(0.3))
 """The factors, and the angle, below which figures on the front count as equal."""
 
@@ -57,8 +66,11 @@ def front_of(fits: Iterable[Fit]) -> tuple[Fit, ...]:
     ordered = sorted(fits, key=lambda fit: (cost(fit.figures), *fit.figures))
     best = min((fit.figures.deviation for fit in ordered), default=0.0)
     follow = [fit for fit in ordered if fit.figures.deviation <= max(_TIMES * best, _FARTHEST)]
+    sound, exact = [fit for fit in follow if fit.figures.angle >= _JAMS], _reach(best)
+    if best <= _OWN and all(fit.figures.deviation > exact for fit in sound):
+        sound = [fit for fit in follow if fit in sound or fit.figures.deviation <= exact]
     unbeaten: list[Fit] = []
-    for fit in [fit for fit in follow if fit.figures.angle >= _JAMS] or follow:
+    for fit in sound or follow:
         if not any(_beats(one.figures, fit.figures) for one in unbeaten):
             unbeaten.append(fit)
     return tuple(sorted(unbeaten, key=lambda fit: (fit.figures.deviation, *fit.figures)))
@@ -66,10 +78,15 @@ def front_of(fits: Iterable[Fit]) -> tuple[Fit, ...]:
 
 def _beats(one: Figures, other: Figures) -> bool:
     """Return whether one is as good as another in all figures, small differences ignored."""
-    if one.deviation > max(_SLACK.deviation * other.deviation, _FOLLOWED):
+    if one.deviation > max(_SLACK.deviation * other.deviation, _EXACT):
         return False
     smaller = one.size <= _SLACK.size * other.size and one.room <= _SLACK.room * other.room
     return smaller and one.angle >= other.angle - _SLACK.angle
+
+
+def _reach(best: float) -> float:
+    """Return the deviation up to which an answer may come first for being driven well."""
+    return max(_DRIVEN_WITHIN * best, _EXACT)
 
 
 def cost(figures: Figures) -> float:
@@ -83,8 +100,26 @@ def _of_angle(figures: Figures) -> float:
     return max(math.sin(_WELL) / max(math.sin(figures.angle), 1e-6), 1.0)
 
 
+def is_driven(angle: float) -> bool:
+    """Tell whether a linkage of such a least transmission angle (rad) can be driven."""
+    return angle >= _DRIVEN
+
+
+def first_of(front: Sequence[Figures]) -> int:
+    """Return the index of the answer that one would build, which comes first.
+
+    It is the knee of the answers that can be driven, with a least transmission angle of 30 degrees, among
+    those within twice the best deviation; where there is none the knee of all, or of those that trace a curve
+    that is a linkage's own.
+    """
+    best = min(one.deviation for one in front)
+    near = [n for n, one in enumerate(front) if one.deviation <= _reach(best)]
+    some = [n for n in near if is_driven(front[n].angle)] or (near if best <= _OWN else [*range(len(front))])
+    return some[knee([front[n] for n in some])]
+
+
 def knee(front: Sequence[Figures]) -> int:
-    """Return the index of the answer that would be chosen.
+    """Return the index of the answer that is worth its size.
 
     It does not double the size to save less than a third of the deviation, nor is it larger than 2.5 curve
     sizes if a smaller one is within 1.5 times the best deviation. Its crank is long enough to be seen turn,
@@ -107,45 +142,67 @@ def knee(front: Sequence[Figures]) -> int:
 
 
 def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
-    """Return answers sorted by what is preferred: deviation, size or transmission angle."""
+    """Return answers sorted by size, by transmission angle, or else by deviation.
+
+    Of balanced ones the one to build comes first.
+    """
     keys: dict[Preference, Callable[[Figures], float]] = {
-        "exact": lambda figures: figures.deviation,
         "compact": lambda figures: max(figures.size, figures.room / 2),
         "angle": lambda figures: -figures.angle,
     }
-    return sorted(fits, key=lambda fit: (keys[prefer](fit.figures), cost(fit.figures)))
+    key: Callable[[Figures], float] = keys.get(prefer, lambda figures: figures.deviation)
+    ordered = sorted(fits, key=lambda fit: (key(fit.figures), cost(fit.figures)))
+    return led([fit.figures for fit in ordered], ordered) if prefer == "balanced" and ordered else ordered
+
+
+def led(figures: Sequence[Figures], answers: Sequence[Answer]) -> list[Answer]:
+    """Return answers, of such figures, with the one that comes first in front; the others stay in order."""
+    first = first_of(figures)
+    return [answers[first], *answers[:first], *answers[first + 1 :]]
+
+
+def differ(one: Figures, other: Figures) -> bool:
+    """Tell whether answers differ to a reader: by a quarter of deviation, a fifth of size, or 5 degrees."""
+    off = sorted(max(figures.deviation, _ROUGHLY) for figures in (one, other))
+    size = sorted((one.size, other.size))
+    larger = off[1] >= _OTHER.deviation * off[0] or size[1] >= _OTHER.size * size[0]
+    return larger or abs(one.angle - other.angle) >= _OTHER.angle
 
 
 def differing(fits: Iterable[Fit], count: int) -> list[Fit]:
-    """Return the first `count` answers that look different."""
+    """Return the first `count` answers that differ to a reader, none a cognate of an earlier one."""
     different: list[Fit] = []
     for fit in fits:
-        if len(different) < count and not any(fit.apart(one) <= ALIKE for one in different):
+        if len(different) < count and _differs(fit, different):
             different.append(fit)
     return different
 
 
-def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
-    """Return at most `count` answers of the front that look different, the most exact first.
+def _differs(fit: Fit, others: Iterable[Fit]) -> bool:
+    return all(differ(fit.figures, one.figures) and fit.apart_from_cognates(one) > SAME for one in others)
 
-    Among them are the shown answer, the ends of the front and, between these, the answers whose figures
+
+def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
+    """Return at most `count` answers of the front that differ to a reader, the shown one first.
+
+    Then come, the most exact first, the ends of the front and, between these, the answers whose figures
     differ most from the others'.
     """
-    ends = [preferred(front, prefer)[0] for prefer in PREFERENCES] if front else []
+    ends = [preferred(front, prefer)[0] for prefer in _ENDS] if front else []
     chosen = differing([shown, *ends], count)
-    rest = [fit for fit in front if all(fit.apart(one) > ALIKE for one in chosen)]
+    rest = [fit for fit in front if _differs(fit, chosen)]
     while rest and len(chosen) < count:
         far = max(rest, key=lambda fit: min(_away(fit.figures, one.figures) for one in chosen))
         chosen.append(far)
-        rest = [fit for fit in rest if fit.apart(far) > ALIKE]
-    return tuple(preferred(chosen, "exact"))
+        rest = [fit for fit in rest if _differs(fit, [far])]
+    return (shown, *preferred(chosen[1:], "exact"))
 
 
 def names_of(cards: Sequence[Figures]) -> tuple[str, ...]:
-    """Return each answer's name: "balanced" for the knee, what it is best in, or else ""."""
+    """Return each answer's name: "balanced" for the one to build, what it is best in, or else ""."""
     names = ["" for _ in cards]
     if cards:
-        names[knee(cards)] = "balanced"
+        names[first_of(cards)] = "balanced"
         for name, best in (
             ("best angle", max(range(len(cards)), key=lambda n: cards[n].angle)),
             ("most compact", min(range(len(cards)), key=lambda n: cards[n].size)),
@@ -211,7 +268,16 @@ def searched_front(task: PathTask, known: Iterable[Fit] = (), pulse: Pulse = unw
         now, costs = _fitted(task, now, before, chosen, steps)
         now = now.take(_best_of_each(now, costs, most))
     pulse()
-    return with_cognates(front_of([*known, *verified(task, now.candidates, chosen, pulse)]), pulse)
+    fits = filter(_passes, verified(task, now.candidates, chosen, pulse))
+    return with_cognates(front_of([*known, *fits]), pulse)
+
+
+def _passes(fit: Fit) -> bool:
+    """Return whether an answer passes the points that are to be passed exactly."""
+    task = fit.task
+    exact = np.flatnonzero(task.weights >= EXACTLY)
+    traced = task.kind.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None, exact])[0]
+    return bool((np.abs(traced - task.curve.points[exact]) <= _OWN * task.curve.size).all())
 
 
 def with_cognates(front: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ...]:
@@ -275,7 +341,7 @@ def way_along(task: PathTask, front: Sequence[Fit], pulse: Pulse = unwatched) ->
     Between two neighbours on the front, the best of their sizes, answers are fitted starting from both.
     """
     exact, compact = (preferred(front, prefer)[0] for prefer in ("exact", "compact"))
-    ends = _along(front, {exact, compact, front[knee([fit.figures for fit in front])]})
+    ends = _along(front, {exact, compact, front[first_of([fit.figures for fit in front])]})
     ends.sort(key=lambda fit: fit is not exact)
     starts, sizes, angles = list[Fit](), list[float](), list[float]()
     for one, other in pairwise(ends):

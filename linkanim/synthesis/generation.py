@@ -26,7 +26,9 @@ from linkanim.intake import meant
 from linkanim.mechanics.search import sign_changes
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.synthesis.answers import Figures
 from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
+from linkanim.synthesis.front import differ, led
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, refuse_count
 from linkanim.units import shown
 
@@ -361,6 +363,12 @@ class Generated:
         """The longest link."""
         return max(self.parameters[name] for name in self.task.kind.links)
 
+    @property
+    def figures(self) -> Figures:
+        """The figures by which it is compared with others, the size in lengths of ground or stroke."""
+        size = self.size / self.task.length
+        return Figures(self.error / abs(self.task.function.span), size, size, self.transmission_angle)
+
 
 class Designs(NamedTuple):
     """Linkages of one kind (k, p), their closures (k,), and the ranges of both scales (k,)."""
@@ -415,12 +423,19 @@ def function(
 ) -> tuple[Generated, ...]:
     """Return linkages whose output follows a function as their input turns, the best first.
 
+    That is the one to build: it can be driven, at a transmission angle of 30 degrees at least, where that
+    takes no more than twice the smallest error; the others follow by their errors, as with `prefer` "exact"
+    all do.
+
     `given` is an expression in x as "y = log10(x)", over x from `first` to `last`, or the rows (x, y) of a
     table. The other options are described below. BadInput for what is not a function, for ranges that make no
     sense, and if no linkage was found.
     """
     refuse_count(count)
-    return answers(task_of(given, first, last, **options), count)
+    prefer = options.pop("prefer", "balanced")
+    if prefer not in ("balanced", "exact"):
+        raise BadInput(f"prefer={shown(prefer)}: take balanced or exact")
+    return answers(task_of(given, first, last, **options), count, exact=prefer == "exact")
 
 
 def task_of(
@@ -480,12 +495,15 @@ def task_of(
     )  # fmt: skip
 
 
-def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
-    """Return the best different linkages, each as the solver runs it; BadInput where there is none."""
+def answers(task: FunctionTask, count: int = COUNT, *, exact: bool = False) -> tuple[Generated, ...]:
+    """Return the best different linkages, each as the solver runs it; BadInput where there is none.
+
+    The first is the one to build, the others follow by their errors; `exact` orders all by their errors.
+    """
     linkages: list[Generated] = []
     for design in _candidates(task, count):
         one = checked(task, design)
-        if one is not None:
+        if one is not None and (exact or all(differ(one.figures, other.figures) for other in linkages)):
             linkages.append(one)
         if len(linkages) == count:
             break
@@ -496,7 +514,8 @@ def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
             f"one branch; {'leave out where a scale begins, ' if given else ''}take other ranges, another "
             "number of precision points, or a shorter piece of it"
         )
-    return tuple(sorted(linkages, key=lambda one: one.error))
+    linkages.sort(key=lambda one: one.error)
+    return tuple(linkages if exact else led([one.figures for one in linkages], linkages))
 
 
 class _Design(NamedTuple):

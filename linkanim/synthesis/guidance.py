@@ -27,7 +27,7 @@ from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.editing import phase_along
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.answers import CouplerLinkage, document_of, parameters_of
+from linkanim.synthesis.answers import CouplerLinkage, Figures, document_of, parameters_of
 from linkanim.synthesis.burmester import (
     SAME,
     Bars,
@@ -43,6 +43,7 @@ from linkanim.synthesis.burmester import (
     slides_through,
     straightened,
 )
+from linkanim.synthesis.front import differ, is_driven
 from linkanim.synthesis.linkages import (
     KINDS,
     SLIDER_CRANK,
@@ -145,8 +146,9 @@ class GuidedLinkage(CouplerLinkage):
 def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[GuidedLinkage, ...]:
     """Return linkages whose coupler passes poses (n, 3), 2 to 5 rows of x, y and angle (rad), the best first.
 
-    Linkages without a defect come first, then small ones with a large transmission angle; `prefer` is
-    "compact" or "angle" to weigh one of these more. For five poses all linkages are returned, for fewer a
+    Linkages without a defect come first, of them the one to build: small, with a transmission angle of 30
+    degrees at least where there is one; the others follow by size. `prefer` is "compact" or "angle" to weigh
+    one of these more, and lists the best of that first. For five poses all linkages are returned, for fewer a
     choice of different ones. The other options are described below. BadInput, with the reason, for poses and
     limits that make no sense, and if no linkage of the kind passes the poses.
     """
@@ -594,26 +596,42 @@ def _outside(task: GuideTask, pivots: Complex) -> Real:
 def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) -> tuple[GuidedLinkage, ...]:
     """Return the best different linkages, each as the solver runs it; BadInput where there is none.
 
-    `weight` is that of the transmission angle against the size; without it the usual one counts, and the
-    smallest linkage and the one with the best angle are among the answers.
+    `weight` is that of the transmission angle against the size; without it the usual one counts, the
+    smallest linkage and the one with the best angle are among the answers, and the one to build comes first:
+    the best that can be driven, at 30 degrees at least; the others are in the order of their size.
     """
     ends = _ends(task)
     free = any(choice.free for pair in ends for choice in pair)
     alike = _ALIKE if free else SAME
     linkages: list[GuidedLinkage] = []
+    alike_ones: list[GuidedLinkage] = []
     for pairs in _candidates(task, ends, count, weight):
         bars = _bars_of(task, pairs)
-        if any(_bars_apart(bars, other.bars, task.poses.size) <= alike for other in linkages):
+        if any(_bars_apart(bars, other.bars, task.poses.size) <= alike for other in [*linkages, *alike_ones]):
             continue
         one = checked(task, pairs)
         if one is not None:
-            linkages.append(one)
+            reads_as_another = free and any(_reads_as(one, other) for other in linkages)
+            (alike_ones if reads_as_another else linkages).append(one)
         # without free parameters the linkages come in the order of their defects
         if sum(not one.defects for one in linkages) >= count or (not free and len(linkages) >= count):
             break
     if not linkages:
         raise BadInput(_none_keeps(task, ends))
-    return tuple(sorted(linkages, key=lambda one: len(one.defects))[:count])
+    # where there are too few, those of other pivots that read as an earlier one fill the list
+    ordered = sorted([*linkages, *alike_ones], key=lambda one: len(one.defects))[:count]
+    if weight is None:
+        sound = [one for one in ordered if len(one.defects) == len(ordered[0].defects)]
+        first = next((one for one in sound if is_driven(one.transmission_angle)), ordered[0])
+        ordered.sort(key=lambda one: (len(one.defects), one is not first, one.size))
+    return tuple(ordered)
+
+
+def _reads_as(one: GuidedLinkage, other: GuidedLinkage) -> bool:
+    """Tell whether two linkages through poses do not differ to a reader in size, angle, defects or crank."""
+    figures, its = (Figures(0.0, each.size, each.size, each.transmission_angle) for each in (one, other))
+    same = one.defects == other.defects and one.scene.info.full_turn == other.scene.info.full_turn
+    return same and not differ(figures, its)
 
 
 def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +17,7 @@ from linkanim.intake import meant
 from linkanim.synthesis.answers import Fit, cognates_of
 from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.fitting import EXACTLY, PathTask
-from linkanim.synthesis.front import PREFERENCES, Preference, differing, preferred, searched_front
+from linkanim.synthesis.front import PREFERENCES, Preference, cards, differing, preferred, searched_front
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
 from linkanim.synthesis.search import (
     SAME,
@@ -46,7 +47,7 @@ def path(
     closed: bool = True,
     *,
     count: int = COUNT,
-    prefer: Preference = "exact",
+    prefer: Preference = "balanced",
     cognates: bool = False,
     rounding: float | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -55,9 +56,11 @@ def path(
     """Return different linkages whose coupler point follows points (n, 2), the best first.
 
     A closed curve is followed in one turn of the crank, its points in their order; an open one within the
-    input's range. `prefer` orders them by deviation ("exact"), or takes them from the front of deviation,
-    size and least transmission angle: the smallest first ("compact"), or those with the best transmission
-    angle ("angle"), all within 3 % of the curve's size, or thrice the best deviation.
+    input's range. They are those of the front of deviation, size and least transmission angle that differ to
+    a reader, all within 3 % of the curve's size, or thrice the best deviation. The first is the one to build:
+    it can be driven, at 30 degrees at least, where that takes no more than twice the best deviation; the
+    others follow from the most exact one on. `prefer` puts the smallest first ("compact"), or those with the
+    best transmission angle ("angle"); "exact" asks for the smallest deviations alone.
 
     `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same options; an
     answer that is a cognate of one before it is not listed again.
@@ -76,12 +79,14 @@ def path(
     steps = itertools.count(1)
     pulse = (lambda: progress(next(steps), 0)) if progress else unwatched
     fits = best_fits(task, count, pulse)
+    most_exact = fits[0]
     if prefer != "exact":
         front = preferred(searched_front(task, fits, pulse), prefer)
-        fits = tuple(differing(front, count))
+        fits = cards(front, front[0], count) if prefer == "balanced" else tuple(differing(front, count))
     if rounding is not None:
         fits = with_round_lengths(fits, rounding, pulse)
         fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
+    fits = tuple(replace(fit, most_exact=most_exact) for fit in fits)
     return with_cognates_marked(_with_cognates(fits, rounding, pulse) if cognates else fits)
 
 

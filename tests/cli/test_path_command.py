@@ -54,7 +54,9 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
 ) -> None:
     found = printed_json(capsys, "oval.csv", "-o", "oval.toml", "--count", "2")
     assert [row["file"] for row in found] == ["oval.toml", "oval-2.toml"]
-    assert [row["rms"] for row in found] == sorted(row["rms"] for row in found)
+    first, exact = found
+    assert first["transmission_angle"] > np.radians(29.9)
+    assert exact["rms"] <= first["rms"] <= 2 * exact["rms"]
     points = np.array([[float(cell) for cell in line.split(",")] for line in OVAL.splitlines()])
     assert any(row["front"] for row in found)
     for row in found:
@@ -86,7 +88,8 @@ def test_cognates_that_do_not_keep_to_what_is_asked_for_are_counted(
 ) -> None:
     assert main(["path", "oval.csv", "--count", "2"]) == 0
     capsys.readouterr()
-    found = [*answers, *[replace(answers[0], cognate=True)] * kept]
+    found = [replace(fit, most_exact=None) for fit in answers]
+    found += [replace(found[0], cognate=True)] * kept
     monkeypatch.setattr("linkanim.cli.commands.path.path", lambda *_, **__: found)
     assert main(["path", "oval.csv", "--cognates"]) == 0
     printed = capsys.readouterr()
@@ -111,6 +114,40 @@ def test_the_table_has_a_line_for_each_answer_and_a_shorter_one_leaves_no_old_fi
     assert main(["path", "oval.csv", "--count", "1"]) == 2
     assert "was changed after linkanim wrote it" in capsys.readouterr().err
     assert (here / "oval.toml").read_text() == "mine"
+
+
+# what the most exact answer is: its deviation, angle and size beside the first's; and what it costs
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("off", "angle", "size", "said"),
+    [
+        (0.5, 0.02, 1.0, "needs a transmission angle of 1.1 deg; "),
+        (0.5, 1.3, 4.0, "needs links of "),
+        (1.0, 0.02, 4.0, ""),
+        (0.9, 0.65, 1.0, ""),
+    ],
+    ids=["a bad angle", "long links", "as exact", "hardly anything"],
+)
+def test_what_exactness_costs_is_one_sentence(
+    off: float,
+    angle: float,
+    size: float,
+    said: str,
+    here: Path,
+    capsys: pytest.CaptureFixture[str],
+    found_once: None,
+    answers: list[Any],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert main(["path", "oval.csv", "--count", "2"]) == 0
+    capsys.readouterr()
+    first = replace(answers[0], transmission_angle=0.65)
+    exact = replace(first, rms=off * first.rms, transmission_angle=angle, size=size * first.size)
+    found = [replace(first, most_exact=exact)]
+    monkeypatch.setattr("linkanim.cli.commands.path.path", lambda *_, **__: found)
+    assert main(["path", "oval.csv"]) == 0
+    printed = capsys.readouterr().err
+    assert (said in printed) if said else not printed
 
 
 @pytest.mark.slow

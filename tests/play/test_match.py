@@ -142,6 +142,7 @@ def test_the_answers_are_the_path_solver_s(name: str) -> None:
         level.curve.points,
         level.curve.closed,
         count=5,
+        prefer="exact",
         pivots=pins if level.fixed else (),
         least_angle=limits.get("least_angle", 0.0),
         largest=limits.get("largest", LARGEST),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from linkanim.manifest import Output
 from linkanim.mechanics.measures import transmission_angle
 from linkanim.paper.construction import ErrorChart
 from linkanim.paper.write import data, write
+from linkanim.synthesis.front import differ
 from linkanim.synthesis.generation import FUNCTIONS, Generated, expression, table
 from linkanim.synthesis.linkages import Real
 
@@ -380,3 +382,22 @@ def test_the_chart_has_the_curve_and_its_extremes(tmp_path: Path) -> None:
     errors = np.array([[float(cell) for cell in row.split(",")] for row in rows])
     assert np.abs(errors[:, 2]).max() == pytest.approx(found.error, rel=1e-3)
     assert len(data(chart, ".png")) > 1000
+
+
+# The square root: the most exact answer's transmission angle is small, or that of the first is not.
+@pytest.mark.slow
+@pytest.mark.parametrize("words", ["sqrt(x)", "x^2"])
+def test_the_first_answer_can_be_driven_and_exact_ones_are_in_order(words: str) -> None:
+    built, exact = (
+        linkanim.function(words, 1, 4, count=5, prefer=prefer, points=4) for prefer in ("balanced", "exact")
+    )
+    assert [one.error for one in exact] == sorted(one.error for one in exact)
+    assert [one.error for one in built[1:]] == sorted(one.error for one in built[1:])
+    near = [one for one in built if one.error <= 2 * min(one.error for one in built)]
+    if max(one.transmission_angle for one in near) > math.radians(30):
+        assert built[0].transmission_angle > math.radians(29.9)
+        assert built[0] in near
+    for one, other in combinations(built, 2):
+        assert differ(one.figures, other.figures)
+    with pytest.raises(BadInput, match='prefer="small": take balanced or exact'):
+        linkanim.function(words, 1, 4, prefer="small")

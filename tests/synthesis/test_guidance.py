@@ -156,6 +156,16 @@ def test_norton_s_example_of_three_positions() -> None:
     verify(found)
 
 
+@pytest.mark.slow
+def test_the_first_answer_is_the_one_to_build_and_the_others_follow_by_size() -> None:
+    found = linkanim.guide(LID)
+    assert len(found) == 6
+    sound = [one for one in found if not one.defects]
+    assert found[: len(sound)] == tuple(sound)
+    assert sound[0].transmission_angle > math.radians(29.9)
+    assert [one.size for one in sound[1:]] == sorted(one.size for one in sound[1:])
+
+
 def test_answers_differ_and_those_without_defects_come_first() -> None:
     found = linkanim.guide(LID, count=5)
     assert [len(one.defects) for one in found] == sorted(len(one.defects) for one in found)

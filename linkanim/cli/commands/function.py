@@ -37,6 +37,7 @@ def run(options: Namespace) -> None:
         points=options.points,
         count=options.count,
         level=not options.chebyshev,
+        prefer=options.prefer,
         **_scale("input", options.input, units.angle),
         **_scale("output", options.output, _length if sliding else units.angle),
         name=target.stem,

@@ -18,7 +18,7 @@ from linkanim.export import csv_head, csv_rows
 from linkanim.intake import named
 from linkanim.synthesis.answers import Fit
 from linkanim.synthesis.curve_files import CurveFile, read_curve
-from linkanim.synthesis.front import front_of, searched_front
+from linkanim.synthesis.front import differ, front_of, searched_front
 from linkanim.synthesis.linkages import Real
 from linkanim.synthesis.path import path
 from linkanim.units import significant
@@ -117,12 +117,27 @@ def _table(front: Sequence[Fit]) -> str:
     return csv_head([*named, "closure"]) + csv_rows([*named.values(), closures])
 
 
+def _cost(first: Fit, exact: Fit) -> str | None:
+    """Return the sentence of what exactness costs in transmission angle, or in size; None where nothing."""
+    off, least = (significant(_percent(fit.rms, fit), 2) for fit in (first, exact))
+    if first.rms <= exact.rms or off == least or not differ(first.figures, exact.figures):
+        return None
+    if first.figures.angle - exact.figures.angle >= math.radians(5) or exact.size <= first.size:
+        angles = [significant(math.degrees(fit.transmission_angle), 2) for fit in (exact, first)]
+        needs, has = f"a transmission angle of {angles[0]} deg", f"{angles[1]} deg"
+    else:
+        needs, has = (f"links of {significant(fit.figures.size, 2)} sizes" for fit in (exact, first))
+    return f"{least} % needs {needs}; {off} % has {has} (--prefer exact lists the most exact)"
+
+
 def _remark(fits: Sequence[Fit], *, cognates: bool) -> None:
-    """Say on stderr if no answer follows well, what rounding costs, and how many cognates are left out."""
+    """Say on stderr if no answer follows well, what exactness and rounding cost, and cognates left out."""
     best = fits[0]
     if _percent(best.rms, best) > _POOR:
         found = significant(_percent(best.rms, best), 3)
         print(f"nothing follows it better than {found} % of its size; this is the best", file=sys.stderr)
+    if best.most_exact is not None and (cost := _cost(best.exact or best, best.most_exact)):
+        print(cost, file=sys.stderr)
     if best.exact is not None:
         before, after = (significant(_percent(fit.rms, fit), 3) for fit in (best.exact, best))
         print(f"rounding takes the best from {before} % to {after} %", file=sys.stderr)
