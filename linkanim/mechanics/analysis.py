@@ -235,7 +235,11 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     if group := group_of(linkage):
         return group_name(group)
     dyads = [joint for joint in linkage.joints if joint.dyad]
-    geared = any(crank.gear for crank in linkage.cranks)
+    geared = any(crank.gear and not crank.gear.motor for crank in linkage.cranks)
+    if linkage.motors and dyads:
+        words = "two motors" if len(linkage.motors) == 1 else f"{len(linkage.motors) + 1} motors"
+        count = 1 + len([*linkage.cranks]) + 2 * len(dyads)
+        return f"{bars_named(count)} with {words}"
     slider = " with slider" if any(joint.travels for joint in dyads) else ""
     if geared and any(isinstance(joint, RRR) for joint in dyads):
         return f"geared five-bar{slider}"
@@ -252,12 +256,17 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
 
 def group_name(group: LinkGroup) -> str:
     """Name a linkage whose links are solved together by how many there are, and what they have."""
-    words, count = ("four", "five", "six", "seven", "eight", "nine", "ten"), len(group.members)
-    bars = f"{words[count - 4] if 4 <= count <= 10 else count}-bar"
     sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
-    has = zip(("slider", "slot", "gears"), (*sliding, bool(group.gears)), strict=True)
+    geared, driven = (any(gear.motor == motor for gear in group.gears) for motor in (False, True))
+    has = zip(("slider", "slot", "gears", "further motors"), (*sliding, geared, driven), strict=True)
     parts = " and ".join(word for word, there in has if there)
-    return f"{bars} linkage{f' with {parts}' if parts else ''}"
+    return f"{bars_named(len(group.members))} linkage{f' with {parts}' if parts else ''}"
+
+
+def bars_named(count: int) -> str:
+    """Name a linkage by the number of its links."""
+    words = ("four", "five", "six", "seven", "eight", "nine", "ten")
+    return f"{words[count - 4] if 4 <= count <= 10 else count}-bar"
 
 
 def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:
@@ -274,7 +283,7 @@ def _cranks_name(linkage: Linkage) -> str:
     """Name a linkage without dyads by how its cranks turn."""
     if linkage.drive.actuator.linkage_name is not None:
         return linkage.drive.actuator.linkage_name
-    geared = [crank for crank in linkage.cranks if crank.gear]
+    geared = [crank for crank in linkage.cranks if crank.gear and not crank.gear.motor]
     if any(not linkage.joint(crank.pivot).fixed for crank in geared):
         return "epicyclic gear train"
     return "geared cranks" if geared else "crank"
@@ -580,11 +589,12 @@ class Info:
         inputs = len(tuple(linkage.cranks)) + isinstance(linkage.driven.joint, DrivenSlider)
         pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
         links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
-        meshes = sum(crank.gear is not None for crank in linkage.cranks)
+        meshes = sum(bool(crank.gear and not crank.gear.motor) for crank in linkage.cranks)
         if group := group_of(linkage):
             links, pins = len(group.members), {point for one in group.members for point in one.points}
             joints = sum(len(group.at_point(point)) - 1 for point in pins) + len(group.slides)
-            slots, meshes = sum(slide.turns for slide in group.slides), len(group.gears)
+            slots = sum(slide.turns for slide in group.slides)
+            meshes = sum(not gear.motor for gear in group.gears)
             return Counts(links, joints, 3 * (links - 1) - 2 * joints + slots - meshes)
         return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
 

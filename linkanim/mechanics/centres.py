@@ -126,7 +126,7 @@ def _geared(linkage: Linkage, one: Link, other: Link) -> bool:
     """Return whether two links turn about fixed pins and their gears mesh: the pitch circles touch."""
     bars = (_joints(linkage, one), _joints(linkage, other))
     for crank in linkage.cranks:
-        if crank.gear and linkage.joint(crank.pivot).fixed:
+        if crank.gear and not crank.gear.motor and linkage.joint(crank.pivot).fixed:
             mate = linkage.joint(crank.gear.mate)
             ends = [{crank.pivot, crank.name}, {mate.pivot, mate.name} if isinstance(mate, Crank) else set()]
             if any(first <= bars[0] and second <= bars[1] for first, second in (ends, ends[::-1])):

@@ -54,12 +54,16 @@ class GroupSlide(NamedTuple):
 
 
 class GroupGear(NamedTuple):
-    """Two links, the second of which turns `ratio` times as far as the first, as their carrier sees it."""
+    """Two links, the second of which turns `ratio` times as far as the first, as their carrier sees it.
+
+    It may be that a `motor` of its own turns it so.
+    """
 
     name: str
     links: tuple[str, str]
     carrier: str
     ratio: Fraction
+    motor: bool = False
 
 
 class GroupMotor(NamedTuple):

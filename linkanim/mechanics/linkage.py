@@ -640,13 +640,15 @@ class Pin(Joint):
 class Gear(NamedTuple):
     """A gear pair: angle = ratio × (angle of the crank `mate`) + offset.
 
-    Its teeth press on each other at `pressure_angle` from the common tangent of its pitch circles.
+    Its teeth press on each other at `pressure_angle` from the common tangent of its pitch circles. A `motor`
+    of its own, as many times as fast, may turn the crank instead.
     """
 
     mate: str
     ratio: Fraction
     offset: float = 0.0
     pressure_angle: float = math.radians(20)
+    motor: bool = False
 
 
 @frozen
@@ -973,9 +975,12 @@ class Linkage(Stated):
 
     @property
     def forceful(self) -> bool:
-        """Whether the input has to drive anything: a spring or damper of known force, a mass, or a load."""
+        """Whether the input has to drive anything: a spring or damper of known force, a mass, or a load.
+
+        With several motors no force tells what each of them delivers.
+        """
         struts = self.springs + self.dampers
-        return (
+        return not self.motors and (
             bool(self.loads)
             or any(strut.forceful for strut in struts)
             or any(body.forceful for body in self.bodies)
@@ -1124,6 +1129,11 @@ class Linkage(Stated):
         own = self.driven.joint
         led = shared & self.radii.keys() - ({own.name} if isinstance(own, Crank) else set())
         return tuple(joint.name for joint in reversed(self.joints) if joint.name in led)
+
+    @property
+    def motors(self) -> tuple[str, ...]:
+        """The cranks that further motors turn."""
+        return tuple(crank.name for crank in self.cranks if crank.gear and crank.gear.motor)
 
     @property
     def cranks(self) -> Iterator[Crank]:

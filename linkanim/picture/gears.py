@@ -105,7 +105,7 @@ def pairs(figure: Figure) -> tuple[WheelPair, ...]:
 
 def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> WheelPair | None:
     gear = crank.gear
-    if gear is None or gear.mate not in cranks:
+    if gear is None or gear.motor or gear.mate not in cranks:
         return None
     driver = cranks[gear.mate]
     fixed = figure.linkage.joint(driver.pivot).fixed

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any, get_args
 
 from linkanim import units
@@ -385,6 +386,36 @@ DRIVE = form(
     *MOTOR_OF_POINTS,
 )
 INPUT = Field("drive", DRIVE, "the input", {})
+MOST_RATIO, RATIO_ROUNDED = 64, 1e-12
+"""The greatest number in the ratio of two motors' speeds, and the share by which that may be rounded."""
+FURTHER = form(
+    "a further motor",
+    Field("joint", NAME, "the crank that it drives; of points, its pivot"),
+    Field("links", _TWO_LINKS, "of points: what turns on what, where more than two links meet", None),
+    Field("speed", SPEED, "how fast it turns; negative: clockwise", label="speed"),
+    Field(
+        "start",
+        ANGLE,
+        "the crank's angle at the start; of points, that of the pose",
+        None,
+        label="start angle",
+    ),
+    make=lambda _, **motor: motor,
+)
+
+
+def motor_ratio(table: Table, speed: Any, first: Any) -> Fraction:
+    """Return how many times as fast as the first motor another one turns."""
+    if isinstance(speed, TravelSpeed) or isinstance(first, TravelSpeed):
+        raise table.error("speed", 'is a speed along a line, but two cranks turn; write "20 rpm"')
+    ratio = Fraction(speed / first).limit_denominator(MOST_RATIO)
+    if abs(float(ratio) * first - speed) > RATIO_ROUNDED * abs(speed) or abs(ratio) > MOST_RATIO:
+        raise table.error(
+            "speed",
+            f"and that of the first motor are not as small whole numbers, up to {MOST_RATIO}, so the linkage"
+            " would never be back; choose others",
+        )
+    return ratio
 
 
 def read_drive(top: Table, usual: str | None) -> Drive | None:
@@ -1056,6 +1087,7 @@ SCENE_FILE = form(
     Field("loads", Named((LOAD,)), "the loads", {}),
     Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
     INPUT,
+    Field("drives", Named((FURTHER,)), "further motors", {}),
     Field("trace", TRACE, "the curves", {}),
     *(Field(key, one, one.words, None) for key, one in PURPOSES.items()),
     Field("photo", PHOTO, "a photograph to build over", None),

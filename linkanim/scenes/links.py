@@ -31,7 +31,7 @@ from linkanim.mechanics.groups import (
     LinkGroup,
 )
 from linkanim.mechanics.linkage import RRP, RRR
-from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS
+from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS, motor_ratio
 from linkanim.scenes.form import Table, on_circle
 from linkanim.units import angle, shown
 
@@ -70,6 +70,8 @@ class GearPair(NamedTuple):
     links: tuple[str, str]
     ratio: Fraction
     carrier: str
+    motor: str = ""
+    """The speed, as it was written, of a motor that turns the second instead."""
 
 
 class PosedLinks(NamedTuple):
@@ -320,6 +322,8 @@ class _Dyads:
         self.blocks: dict[str, str] = {}
         """The blocks that were placed, each with its pin."""
         self.turning: dict[str, _Geared] = {}
+        self.motors: dict[str, dict[str, Any]] = {}
+        """The further motors, each as its table."""
         self.reason = ""
         """Why a dyad could not be written, the first one."""
 
@@ -380,6 +384,9 @@ class _Dyads:
                 other = self.turning[mate]
                 offset = math.remainder(turn - float(ratio) * other.angle, math.tau)
                 self.turning[link] = _Geared(pin, turn, ratio * other.ratio)
+                if gear.motor:
+                    self.motors[gear.name] = {"joint": pin, "speed": gear.motor, "start": in_degrees(turn)}
+                    return self.add(pin, {"crank": pivot, "length": self.pose.length(pivot, pin)})
                 geared = {"with": other.pin, "ratio": _written(ratio), "offset": in_degrees(offset)}
                 length = self.pose.length(pivot, pin)
                 return self.add(pin, {"crank": pivot, "length": length, "gear": geared})
@@ -570,13 +577,17 @@ class AsJoints(NamedTuple):
 def as_joints(top: Table) -> AsJoints | None:
     """Return the document of a file with [points] as one with [joints]; None where it has a fault."""
     pose = posed(top)
-    drive = top.attempt(SECTIONS["drive"].read, top)
-    if pose is None or drive is None:
+    drive, further = (top.attempt(SECTIONS[key].read, top) for key in ("drive", "drives"))
+    if pose is None or drive is None or further is None or None in further.values():
         return None
-    return top.attempt(_as_joints, top, pose, drive)
+    return top.attempt(_as_joints, top, pose, drive, further)
 
 
-def _as_joints(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> AsJoints:
+def _as_joints(
+    top: Table, pose: PosedLinks, drive: Mapping[str, Any], further: Mapping[str, Any]
+) -> AsJoints:
+    motors = _further_motors(top, pose, drive, further)
+    pose = pose._replace(gears=(*pose.gears, *motors))
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
     group: tuple[GroupPoint, ...] = ()
@@ -599,6 +610,28 @@ def _as_joints(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> AsJoin
     return AsJoints(_document(top, pose, chain, driven), group)
 
 
+def _further_motors(
+    top: Table, pose: PosedLinks, drive: Mapping[str, Any], further: Mapping[str, Any]
+) -> tuple[GearPair, ...]:
+    """Return each further motor as what turns its link so many times as far as the first motor's."""
+    if not further:
+        return ()
+    table, found = top.table("drive"), list[GearPair]()
+    if "slide" in drive or "cylinder" in drive:
+        raise top.error("drives", "go with a first motor that turns; leave them out, or the slide")
+    first = _driven_links(table, pose, _pivot_of(table, pose, drive), drive.get("links"))
+    for name, motor in further.items():
+        own = top.table("drives").table(name)
+        links = _driven_links(own, pose, _pivot_of(own, pose, motor), motor.get("links"))
+        if first[0] != GROUND or links[0] != GROUND or links[1] == first[1]:
+            raise own.error("joint", "is no fixed point about which another link than the first one's turns")
+        if "start" in motor:
+            raise own.error("start", "is that of the pose; leave it out")
+        ratio = motor_ratio(own, motor["speed"], drive["speed"])
+        found.append(GearPair(name, (first[1], links[1]), ratio, GROUND, str(own.values["speed"])))
+    return tuple(found)
+
+
 def _group(chain: _Dyads, motor: GroupMotor | None = None) -> tuple[GroupPoint, ...]:
     """Return the joints of all links that the crank, or a motor between two of them, moves."""
     pose = chain.pose
@@ -617,7 +650,9 @@ def _group(chain: _Dyads, motor: GroupMotor | None = None) -> tuple[GroupPoint, 
         for name, points in pose.links.items()
     )
     slides = tuple(_group_slide(pose, slide) for slide in pose.slides)
-    gears = tuple(GroupGear(gear.name, gear.links, gear.carrier, gear.ratio) for gear in pose.gears)
+    gears = tuple(
+        GroupGear(gear.name, gear.links, gear.carrier, gear.ratio, bool(gear.motor)) for gear in pose.gears
+    )
     points = tuple(name for name in _connected(chain) if name not in chain.known)
     group = LinkGroup(at, crank, members, points, slides, gears, motor)
     blocks = {slide.point: slide.link for slide in slides if not slide.turns and group.line(slide)}
@@ -645,7 +680,9 @@ def _connected(chain: _Dyads) -> list[str]:
 
 
 def _document(top: Table, pose: PosedLinks, chain: _Dyads, driven: dict[str, Any]) -> dict[str, Any]:
-    stated = {key: value for key, value in top.values.items() if key not in (*POSE_KEYS, "bodies")}
+    stated = {key: value for key, value in top.values.items() if key not in (*POSE_KEYS, "bodies", "drives")}
+    if chain.motors:
+        stated["drives"] = chain.motors
     pins = {name: _pin(top, pose, name) for name in pose.links[GROUND]}
     bodies = _bodies(top, chain)
     return {**stated, "drive": driven, "ground": pins, "joints": chain.joints, "bodies": bodies}

@@ -28,6 +28,7 @@ from linkanim.mechanics.linkage import (
     RRR,
     Body,
     Crank,
+    Gear,
     Joint,
     Linkage,
     Load,
@@ -41,6 +42,7 @@ from linkanim.mechanics.linkage import (
 )
 from linkanim.scenes.file_form import (
     GROUND,
+    INPUT,
     JOINTS,
     POSE_KEYS,
     PURPOSES,
@@ -48,6 +50,7 @@ from linkanim.scenes.file_form import (
     SECTIONS,
     SHORTHANDS,
     Expansion,
+    motor_ratio,
     names_of,
     read_drive,
     refuse_misplaced,
@@ -308,7 +311,7 @@ def read(
     if any(key in top for key in POSE_KEYS):
         return _read_points(top, name=name, towards=towards, check=check)
     top, short = _with_joints(top)
-    top = _with_group(top, group)
+    top = top.attempt(_with_motors, _with_group(top, group), short) or top
     top = top.attempt(_settled, top, short) or top
     document = top.values
     bodies = _part(top, "bodies") or {}
@@ -431,6 +434,28 @@ def _of_points(error: BadInput, where: str) -> BadInput:
 def _part(top: Table, key: str) -> Any:
     """Return the value of one of the file's tables or keys; None where it has a fault."""
     return top.attempt(SECTIONS[key].read, top)
+
+
+def _with_motors(top: Table, short: Expansion) -> Table:
+    """Return the file's table with further motors on their cranks: each turns so many times as fast."""
+    further = _part(top, "drives") or {}
+    drive = INPUT.read(top) if further else None
+    if not further or drive is None or None in further.values() or not top.context.sound:
+        return top
+    joints = dict(top.context.joints)
+    own = {motor["joint"] for motor in further.values()}
+    cranks = (joint.name for joint in joints.values() if isinstance(joint, Crank) and joint.gear is None)
+    first = drive.get("joint", short.drive or next((name for name in cranks if name not in own), ""))
+    for name, motor in further.items():
+        table, crank = top.table("drives").table(name), joints.get(motor["joint"])
+        if not isinstance(crank, Crank) or crank.gear or crank.name == first or first not in joints:
+            raise table.error("joint", "is no crank that is left to be driven; name another one")
+        ratio = motor_ratio(table, motor["speed"], drive["speed"])
+        offset = motor.get("start", 0.0) - float(ratio) * drive["start"]
+        joints[crank.name] = replace(crank, gear=Gear(first, ratio, offset, motor=True))
+    fixed = {name: joint for name, joint in joints.items() if joint.fixed}
+    context = replace(top.context, joints={**fixed, first: joints[first], **joints})
+    return replace(top, context=context)
 
 
 def _with_group(top: Table, group: tuple[GroupPoint, ...]) -> Table:

@@ -95,7 +95,7 @@ def meshes(linkage: Linkage, scale: float, module: float) -> Iterator[Mesh]:
     """
     cranks = {crank.name: crank for crank in linkage.cranks}
     for crank in cranks.values():
-        if crank.gear is not None:
+        if crank.gear is not None and not crank.gear.motor:
             driver = cranks[crank.gear.mate]
             yield (
                 _planet(linkage, crank, driver, scale, module)
