@@ -29,6 +29,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.devices import code
 from linkanim.player.files import DraftFile, SceneFile
+from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import key_names
 from linkanim.player.state import State, begin
@@ -71,6 +72,9 @@ _BEGUN: Mapping[str, tuple[Action, ...]] = {
     "lengths": (Action("edit"),),
     "lengths on a sheet": (Action("build_on"), Action("numbers")),
     "chart": (Action("chart", 1), Action("names")),
+    "a step of a lesson": (Action("stage", LessonStep(load("whitworth"), running=False).text(1, 3)),),
+    "a caption": (Action("caption_step"),),
+    "anything": (Action("find"),),
 }
 """What is on in a window that opens, by name."""
 _LINKS = (30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
