@@ -94,17 +94,22 @@ def touch(linkage: Linkage, one: Link, other: Link) -> bool:
     return joined is not None or _geared(linkage, one, other)
 
 
-def kennedy(linkage: Linkage, links: Mapping[str, Link]) -> tuple[KennedyStep, ...]:
+def kennedy(
+    linkage: Linkage, links: Mapping[str, Link], *, to_ground: bool = False
+) -> tuple[KennedyStep, ...]:
     """Return the centres that Kennedy's theorem leads to, in the order in which they can be found.
 
     Centres of links that share a joint, slide on each other or are geared to each other on fixed pins are
     known. Each other centre is found by two links whose centres with both are known by then. Centres to which
-    only one such link leads stand at the end.
+    only one such link leads stand at the end. `to_ground` are only those with the first link, the ground, to
+    which two lines lead through each other and the centres that are known at once.
     """
     pairs = list(combinations(links, 2))
     known = {(one, other) for one, other in pairs if touch(linkage, links[one], links[other])}
     steps: list[KennedyStep] = []
-    for least in (2, 1):
+    if to_ground:
+        pairs = [pair for pair in pairs if pair[0] == next(iter(links))]
+    for least in (2,) if to_ground else (2, 1):
         while found := next(_next(links, pairs, known, least), None):
             steps.append(found)
             known.add(found.pair)

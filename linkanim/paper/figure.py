@@ -120,7 +120,7 @@ class Figured:
         return self.picture.theme.background if self.look.background else None
 
 
-DIMENSIONED = Look(names=2, hud=False, dead_centres=False)
+DIMENSIONED = Look(names=2, hud=False)
 """How a scene looks in the figure of its dimensions: nothing in it is of another pose."""
 _LEVEL, _UPRIGHT = (560, 370), (440, 520)
 _HIGH = 1.1

@@ -381,7 +381,7 @@ class Report:
 
     def _poses(self) -> Iterator[Part]:
         """Yield a figure of the scene at each instant."""
-        look = Look(names=1, hud=False, trace=False, dead_centres=False)
+        look = Look(names=1, hud=False, trace=False)
         across = 3 if self._tall or len(self.instants) % 3 == 0 else 2
         size = _TALL_POSE if self._tall else _POSES[across]
         figures = (

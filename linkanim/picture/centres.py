@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import combinations
 
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.centres import Centre, KennedyStep, centre, centrodes, joint_between, kennedy
+from linkanim.mechanics.centres import Centre, KennedyStep, centre, centrodes, joint_between, kennedy, touch
 from linkanim.mechanics.measures import coupler_body
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.chart import runs_of
@@ -26,7 +26,8 @@ from linkanim.units import three_digits
 _CLOSE = 3.0
 """Points of a curve that are nearer to each other than this, in pixels, are thinned out."""
 _MOST = 5
-"""With up to this many links, ground included, all centres are marked; with more, those to the ground."""
+"""With up to this many links, ground included, all centres are marked; with more, those with the ground to
+which two of Kennedy's lines lead, and those on these lines."""
 _FAR = 0.7
 """The view holds centres up to this far from its middle across and down, in sizes of the linkage."""
 _BEYOND = 4.0
@@ -54,10 +55,18 @@ class CentrePairs:
 
     @cached_property
     def pairs(self) -> tuple[NamedPair, ...]:
-        """All pairs where links are few; else the pairs with the ground."""
-        links = self.figure.by_number
-        pairs = combinations(links, 2) if self.all_shown else (("1", other) for other in [*links][1:])
-        return tuple(NamedPair(pair, label_of(*pair)) for pair in pairs)
+        """All pairs where links are few; else those with the ground that are known, or found by two lines."""
+        links, order = self.figure.by_number, [*self.figure.by_number]
+        if self.all_shown:
+            return tuple(NamedPair(pair, label_of(*pair)) for pair in combinations(links, 2))
+        ground = (("1", other) for other in order[1:])
+        found = {pair for pair in ground if touch(self.figure.linkage, links[pair[0]], links[pair[1]])}
+        for step in self.steps:
+            one, other = step.pair
+            on_lines = ((one, third) for third in step.by), ((third, other) for third in step.by)
+            found |= {step.pair, *(_in_order(pair, order) for pairs in on_lines for pair in pairs)}
+        shown = sorted(found, key=lambda pair: (order.index(pair[0]), order.index(pair[1])))
+        return tuple(NamedPair(pair, label_of(*pair)) for pair in shown)
 
     @property
     def all_shown(self) -> bool:
@@ -66,8 +75,8 @@ class CentrePairs:
 
     @cached_property
     def steps(self) -> tuple[KennedyStep, ...]:
-        """The steps by which Kennedy's theorem leads to the centres; empty with many links."""
-        return kennedy(self.figure.linkage, self.figure.by_number) if self.all_shown else ()
+        """The steps of Kennedy's theorem to the centres; of many links to those with the ground."""
+        return kennedy(self.figure.linkage, self.figure.by_number, to_ground=not self.all_shown)
 
     @cached_property
     def at_joints(self) -> dict[str, tuple[str, ...]]:
@@ -109,6 +118,11 @@ class CentrePairs:
         unit_ = self.figure.scene.length_unit
         named = subscripted(self.figure.fixed[0]) if self.figure.fixed else "the origin"
         return tuple(f"{label}: 0000 {unit_} from {named}" for _, label in self.pairs if label not in jointed)
+
+
+def _in_order(pair: tuple[str, str], order: Sequence[str]) -> tuple[str, str]:
+    one, other = sorted(pair, key=order.index)
+    return one, other
 
 
 class Seen(NamedTuple):

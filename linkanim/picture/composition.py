@@ -87,7 +87,7 @@ class Wanted(NamedTuple):
     centres: int = 0
     vectors: frozenset[str] = frozenset()
     traced: bool = True
-    dead_centres: bool = True
+    dead_centres: bool = False
     type_scale: float = 1.0
 
     @property

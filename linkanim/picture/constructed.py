@@ -81,7 +81,7 @@ def kinds_of(scene: Scene) -> tuple[ConstructionKind, ...]:
     known = CentrePairs(figure(scene))
     has = {
         "synthesis": is_synthesised(scene),
-        "centres": bool(known.steps),
+        "centres": known.all_shown and bool(known.steps),
         "dead-centres": in_line_parts(scene) is not None,
     }
     return tuple(kind for kind in KINDS if has[kind])

@@ -79,7 +79,7 @@ class Look:
     transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in fractions
     of the window's height. `ghost` draws the other closure faintly. `names` is 0 for none, 1 for the names
     of joints and links with the input's direction of turning, 2 for dimensions and the input's angle as
-    well; with either a slider's guide has its `dead_centres`, unless they would give an answer away.
+    well; with either a slider's guide has its `dead_centres`, if they are asked for.
     `caption` adds the scene's sentence on what to watch for. `polygons` draws the velocity and acceleration
     polygons beside the linkage; `large_polygon` 1 draws the first of them alone, 2 the second. `chain`
     colours the links in the order in which they are solved. `centres` is 0 for none, 1 for the instant
@@ -124,6 +124,17 @@ class Look:
         keys=("n",),
         title="names: off, joints and links, with dimensions",
         subject="look",
+    )
+    dead_centres: bool = _toggle(
+        False,
+        Option(
+            "dead-centres",
+            "with names, mark a slider's dead centres with the input's angles there",
+            True,
+            commands=("record", "draw", "share"),
+        ),
+        answers=("no dead centres", "dead centres, with names"),
+        keys=("shift+n",),
     )
     polygons: bool = _toggle(
         False,
@@ -229,7 +240,6 @@ class Look:
         Option("transparent", "leave the background out", False, commands=("draw",)),
         steps=(True, False),
     )
-    dead_centres: bool = True
     zoom: float = 1.0
     pan: tuple[float, float] = (0.0, 0.0)
     type_scale: float = 1.0

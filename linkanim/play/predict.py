@@ -41,7 +41,7 @@ _SWEEP, _WIDE = 4 * FRAMES_PER_SECOND, radians(15.0)
 """The frames for which the input then swings about that pose, and how far to each side."""
 _SLOW = -4
 """The input's speed where the answer is at another pose, in rungs of the clock's ladder."""
-_BARE = Look(hud=False, trace=False, names=1, dead_centres=False)
+_BARE = Look(hud=False, trace=False, names=1)
 
 
 class GivenAnswer(NamedTuple):

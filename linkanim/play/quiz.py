@@ -163,7 +163,7 @@ def pose_words(question: QuizQuestion) -> str:
 
 def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Figured:
     """Return the figure of a question for paper: answers that are places are lettered dots."""
-    look = Look(hud=False, trace=False, names=1, dead_centres=False)
+    look = Look(hud=False, trace=False, names=1)
     spots = (
         Spot(letter, one.place)
         for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))

@@ -166,7 +166,11 @@ KEYS: Table = {
         KeyRow(
             "C (Shift: off)", "chart: next quantity, off", on("c", "chart", 1) + on("shift+c", "plot", "")
         ),
-        KeyRow("X", "chart's axis: angle, time, phase", _of_look("over")),
+        KeyRow(
+            "X; Shift+N",
+            "chart's axis; dead centres",
+            _of_look("over") + _of_look("dead_centres"),
+        ),
         KeyRow("K (Shift: more)", "the list of quantities", on("k", "list") + on("shift+k", "list", "below")),
         KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     ),
@@ -404,6 +408,7 @@ _APART: Mapping[Action, str] = {
     **{Action("select", n): f"mechanism {n + 1} of the chapter" for n in range(9)},
     Action("names"): "names, then dimensions",
     Action("over"): "the chart's axis: angle, time, phase",
+    Action("dead_centres"): "a slider's dead centres, with names",
     Action("material"): "lit or flat",
     Action("polygons"): "velocity and acceleration polygons",
     Action("large_polygon"): "one polygon alone, large",

@@ -19,7 +19,7 @@ SIZE = (960, 540)
 
 
 def drawing(name: str, named: int = 2, size: tuple[int, int] = SIZE) -> Drawing:
-    look = Look(hud=False, names=named)
+    look = Look(hud=False, names=named, dead_centres=True)
     return Picture(load(name), size, look).drawing
 
 
@@ -88,7 +88,7 @@ def test_else_there_are_none(name: str, named: int) -> None:
 def test_the_words_stand_off_their_guide_at_their_ticks_in_any_zoom(name: str) -> None:
     found = list[dict[str, complex]]()
     for zoom in (1.5, 3.0):
-        picture = Picture(load(name), SIZE, Look(names=2, zoom=zoom))
+        picture = Picture(load(name), SIZE, Look(names=2, dead_centres=True, zoom=zoom))
         ticks = picture.drawing.dead_centres
         assert ticks
         feet = {text: foot for text, foot, _ in ticks.words()}
@@ -97,3 +97,10 @@ def test_the_words_stand_off_their_guide_at_their_ticks_in_any_zoom(name: str) -
     near, far = found
     assert near
     assert near == pytest.approx(far)
+
+
+def test_they_are_drawn_where_they_are_asked_for_and_nowhere_else() -> None:
+    for named, asked in ((0, False), (1, False), (2, False), (0, True), (2, True)):
+        look = Look(hud=False, names=named, dead_centres=asked)
+        found = Picture(load("slider-crank"), SIZE, look).drawing.dead_centres
+        assert (found is not None) == (asked and named > 0)
