@@ -160,12 +160,16 @@ def _plain(symbol: str) -> str:
 
 def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -> None:
     scene = load("six-bar")
-    figured = Figured(scene, (1280, 720), Look(hud=False, centres=1), phase=1.0)
+    figured = Figured(scene, (1280, 720), Look(hud=False, centres=1))
     (marked,) = [group for group in figured.groups() if group.name == "instant-centres"]
     (named,) = [group for group in figured.groups() if group.name == "names"]
     own = {caption.text for caption in named.captions if caption.of == f"centre:{_plain(caption.text)}"}
     assert own == {"P_{13}", "P_{15}"}
-    pose, view, numbers = scene.pose(1.0), figured.picture.view, figured.picture.figure.by_number
+    pose, view, numbers = (
+        scene.pose(figured.shown_phase),
+        figured.picture.view,
+        figured.picture.figure.by_number,
+    )
     lines, crosses = marked.layers
     assert len(crosses.loops) == 2 * 2
     for n, body in enumerate(numbers[number] for number in "35"):
