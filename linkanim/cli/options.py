@@ -754,6 +754,9 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             timing,
             'how far the crank turns from point to point, such as "20 deg", or `column`',
         ),
+        _value(
+            "--pivots X,Y", pair, "the crank's fixed pin, or both fixed pins, that are given", (), nargs="+"
+        ),
         _value("--count N", count, "the number of answers (default: 5)", 5),
         *_limits("sizes of the curve"),
         _takes(
@@ -788,6 +791,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "function": (
         _takes(
             "given", metavar="FUNCTION", help='an expression, such as "y = log10(x)", or a table of x and y'
+        ),
+        _flag(
+            "--pairs",
+            'FUNCTION is 3 to 5 pairs of angles of crank and rocker in degrees, as "40:70, 45:76, 50:83", '
+            "or a table of them (of a slider the places in mm)",
         ),
         _value("--from A", number, "the first x", dest="first"),
         _value("--to B", number, "the last x", dest="last"),

@@ -89,6 +89,8 @@ class GivenFunction:
     first: float
     last: float
     values: Callable[[Real], Real]
+    pairs: Real | None = None
+    """The x at which alone it is known, where it is pairs of angles; a smooth curve connects them."""
 
     def __post_init__(self) -> None:
         """Refuse what no linkage can follow."""
@@ -140,6 +142,10 @@ class GivenFunction:
         """Return `count` values of x with Chebyshev's spacing: the zeros of his polynomial of that degree."""
         middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
         return np.asarray(middle - half * np.cos((2 * np.arange(count) + 1) * math.pi / (2 * count)))
+
+    def precision(self, count: int) -> Real:
+        """Return the x at which a linkage is to be exact: Chebyshev's, or those of the pairs."""
+        return self.chebyshev(count) if self.pairs is None else self.pairs
 
 
 def expression(text: str, first: float, last: float) -> GivenFunction:
@@ -212,6 +218,25 @@ def table(rows: Sequence[tuple[float, float]], words: str = "y of a table") -> G
     with np.errstate(all="ignore"):  # what overflows is refused as a value
         bends = _bends(x, y)
     return GivenFunction(words, float(x[0]), float(x[-1]), lambda at: _spline(x, y, bends, at))
+
+
+def pairs_of(rows: Sequence[Sequence[float]] | Real, *, sliding: bool) -> GivenFunction:
+    """Return pairs of angles (rad), or of an angle and a place, as a function of the first in degrees.
+
+    BadInput for another number of them than 3 to 5, and for two with one first angle.
+    """
+    found = sorted((float(one), float(other)) for one, other in rows)
+    if not FEWEST_POINTS <= len(found) <= MOST_POINTS or not can_be_computed(*np.ravel(found)):
+        raise BadInput(
+            f"{len(found)} pairs are given: a linkage takes {FEWEST_POINTS} to {MOST_POINTS}, each {NUMBERS}"
+        )
+    x, y = np.array(found).T
+    x, y = np.degrees(x), y if sliding else np.degrees(y)
+    same = np.flatnonzero(np.diff(x) <= 0)
+    if len(same):
+        raise BadInput(f"two pairs begin with {x[same[0]]:g} deg; give the crank another angle in each")
+    bends, words = _bends(x, y), f"{len(x)} pairs of {'places' if sliding else 'angles'}"
+    return GivenFunction(words, float(x[0]), float(x[-1]), lambda at: _spline(x, y, bends, at), x)
 
 
 def _bends(x: Real, y: Real) -> Real:
@@ -414,7 +439,7 @@ def _rows(kind: LinkageKind, poses: Poses, bars: Bars, first: tuple[float, float
 
 
 def function(
-    given: str | Sequence[Sequence[float]],
+    given: str | Sequence[Sequence[float]] | Real,
     first: float | None = None,
     last: float | None = None,
     *,
@@ -439,7 +464,7 @@ def function(
 
 
 def task_of(
-    given: str | Sequence[Sequence[float]],
+    given: str | Sequence[Sequence[float]] | Real,
     first: float | None = None,
     last: float | None = None,
     *,
@@ -450,6 +475,7 @@ def task_of(
     output_range: float | None = None,
     output_start: float | None = None,
     level: bool = True,
+    pairs: bool = False,
     unit: str = "mm",
     name: str = "function",
     source: str = "made by linkanim for a function",
@@ -460,10 +486,20 @@ def task_of(
     many as the other options leave room for. The ranges and starts of the scales on input and output are in
     radians, those of a slider in `unit`; negative ranges run backwards. With `level` False the precision
     points keep Chebyshev's spacing.
+
+    With `pairs`, `given` is three to five pairs of the crank's angle and the output's (rad; a slider's place
+    in `unit`), and nothing is said of points, ranges and starts. Three are taken as they are, from the line
+    through the pivots, or along the slider's line from the crank's pivot; of four and five the differences
+    are, and where both scales begin is found.
     """
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
     units.metre(unit)
+    if pairs:
+        own = points, first, last, input_range, input_start, output_range, output_start
+        if any(one is not None for one in own) or not level:
+            raise BadInput("pairs are taken as they are: leave out ranges, starts and the number of points")
+        return _task_of_pairs(given, KINDS[kind], unit, name, source)
     if isinstance(given, str):
         if first is None or last is None:
             raise BadInput(f"{shown(given)}: say over which x, from and to")
@@ -495,6 +531,28 @@ def task_of(
     )  # fmt: skip
 
 
+def _task_of_pairs(
+    given: str | Sequence[Sequence[float]] | Real, kind: LinkageKind, unit: str, name: str, source: str
+) -> FunctionTask:
+    """Return the task of pairs of angles: both ranges follow from them, and of three both starts."""
+    if isinstance(given, str) or np.ndim(given) != 2 or np.shape(given)[1] != 2:
+        raise BadInput("pairs: give rows of two numbers, the crank's angle and the output's")
+    target = pairs_of(given, sliding=not kind.turning)
+    wide, high = math.radians(target.last - target.first), target.span
+    if not _NARROWEST <= wide <= _WIDEST:
+        raise BadInput(
+            f"the pairs turn the crank by {math.degrees(wide):g} deg; let them turn it by 1 to 340 deg in all"
+        )
+    assert target.pairs is not None
+    start = target.start
+    starts = (math.radians(target.first), math.radians(start) if kind.turning else start)
+    first, last = starts if len(target.pairs) == FEWEST_POINTS else (None, None)
+    high = math.radians(high) if kind.turning else high
+    return FunctionTask(
+        target, kind, len(target.pairs), wide, first, high, last, False, False, unit, name, source
+    )  # fmt: skip
+
+
 def answers(task: FunctionTask, count: int = COUNT, *, exact: bool = False) -> tuple[Generated, ...]:
     """Return the best different linkages, each as the solver runs it; BadInput where there is none.
 
@@ -509,13 +567,38 @@ def answers(task: FunctionTask, count: int = COUNT, *, exact: bool = False) -> t
             break
     if not linkages:
         given = task.input_start is not None or task.output_start is not None
+        if task.function.pairs is not None:
+            raise BadInput(_no_linkage_of_pairs(task))
         raise BadInput(
             f"no {task.kind.name} was found that follows {task.function.words} over the whole range on "
             f"one branch; {'leave out where a scale begins, ' if given else ''}take other ranges, another "
             "number of precision points, or a shorter piece of it"
         )
-    linkages.sort(key=lambda one: one.error)
+    if task.function.pairs is None:
+        linkages.sort(key=lambda one: one.error)
     return tuple(linkages if exact else led([one.figures for one in linkages], linkages))
+
+
+def _no_linkage_of_pairs(task: FunctionTask) -> str:
+    """Return why no linkage takes the pairs: which link would point the other way, or that none does."""
+    function, kind = task.function, task.kind
+    assert function.pairs is not None
+    if len(function.pairs) == FEWEST_POINTS:
+        inputs = np.radians(function.pairs)
+        outputs = np.radians(function(function.pairs)) if kind.turning else function(function.pairs)
+        lengths = kind.through(inputs[None], outputs[None] / task.scales[1])[0]
+        turned = [("crank's", lengths[0])] + [("rocker's", lengths[2])] * kind.turning
+        wrong = [which for which, length in turned if length < 0]
+        if wrong:
+            which = " and the ".join(wrong)
+            return (
+                "these 3 pairs need a link that points the other way: add 180 deg to all of the "
+                f"{which} angles"
+            )
+    return (
+        f"no {kind.name} takes these {len(function.pairs)} pairs on one branch, with links of less than "
+        f"{_SLIMMEST:g} to 1; change one of them a little, or leave one out"
+    )
 
 
 class _Design(NamedTuple):
@@ -577,7 +660,7 @@ def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
 
 def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> list[_Design]:
     """Return the best linkages that are exact at Chebyshev's points, for given ranges of both scales."""
-    x = task.function.chebyshev(points)
+    x = task.function.precision(points)
     inputs, outputs = task.function.x_share(x) * ranges[0], task.function.y_share(x) * ranges[1]
     try:
         rows = _rows_of_three(task, inputs, outputs) if points == 3 else _rows_of_more(task, inputs, outputs)
@@ -678,7 +761,13 @@ def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, 
     with np.errstate(all="ignore"):
         worst = np.abs(error).max(axis=1) / abs(task.function.span)
         sine = np.sqrt(1 - np.abs(cosine).max(axis=1) ** 2)
-        merits = np.log(worst + _FINEST) + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
+        # between pairs nothing is wanted
+        off = (
+            np.log(worst + _FINEST)
+            if task.function.pairs is None
+            else np.where(np.isfinite(worst), 0.0, np.inf)
+        )
+        merits = off + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
         # a slider's stroke, of length 1, counts as a link; of a four-bar that is the ground
         lengths = np.column_stack([np.ones(len(rows)), _lengths(task.kind, rows)])
         merits[lengths.max(axis=1) > _SLIMMEST * lengths.min(axis=1)] = np.inf
@@ -865,12 +954,12 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         sampled = errors(x)
         if not np.isfinite(sampled).all():
             return None
-        extremes = _extremes(errors, x)
+        extremes = _extremes(errors, x) if function.pairs is None else function.pairs
         worst = errors(extremes)
         if kind.turning:
             seen = float(scene.solve(angle=start, derivatives=0).angle[kind.output])
             first = _in_turn(first, seen if task.output_start is None else task.output_start)
-        points = sign_changes(errors, x, _CLOSELY) if task.level else function.chebyshev(design.points)
+        points = sign_changes(errors, x, _CLOSELY) if task.level else function.precision(design.points)
         stated = {"function": _stated(task, points, (start, wide, first, high))}
         scene = scene_from({**document, **stated}, name=task.name, where=task.name)
     except (AssemblyError, SceneError):

@@ -135,3 +135,29 @@ def test_bad_input_is_one_line(
     assert printed.err.count("\n") == 1
     assert printed.out == ""
     assert list(here.glob("*.toml")) == []
+
+
+def test_pairs_of_angles_are_a_text_or_a_table(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (here / "pairs.csv").write_text("crank,rocker\n40,70\n45,76\n50,83\n")
+    text, table = (
+        printed_json(capsys, "function", given, "--pairs") for given in ("40:70, 45:76, 50:83", "pairs.csv")
+    )
+    assert text[0]["parameters"] == table[0]["parameters"]
+    assert text[0]["input_start"] == pytest.approx(math.radians(40))
+    assert text[0]["output_start"] == pytest.approx(math.radians(70))
+    assert main(["draw", "function.toml", "--construction", "-o", "steps.svg"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["40;70", "--pairs"], '"40;70" is no list of pairs; write them as in'),
+        (["40:70, 45:76, 50:83", "--pairs", "--chart", "e.svg"], "leave out --chart"),
+        (["40:70, 45:76, 50:83", "--pairs", "--input", "60 deg"], "leave out ranges"),
+    ],
+)
+def test_pairs_that_make_no_sense_are_refused(
+    words: list[str], said: str, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["function", *words]) == 2
+    assert said in capsys.readouterr().err

@@ -203,3 +203,15 @@ def test_bad_input_is_one_line(
     assert printed.err.count("\n") == 1
     assert printed.out == ""
     assert list(here.glob("*.toml")) == []
+
+
+@pytest.mark.slow
+def test_given_pivots_are_those_of_the_answers_the_crank_s_first(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words, names in ((["-40,-30"], ("x", "y")), (["-40,-30", "55,-40"], ("x", "y", "x4", "y4"))):
+        for row in printed_json(capsys, "oval.csv", "--count", "2", "--pivots", *words):
+            given = [row["parameters"][name] for name in names]
+            assert given == [float(number) for word in words for number in word.split(",")]
+    assert main(["path", "oval.csv", "--kind", "slider-crank", "--pivots", "0,0", "1,1"]) == 2
+    assert "a slider-crank has 1 fixed pins; 2 are given" in capsys.readouterr().err

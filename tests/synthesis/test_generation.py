@@ -401,3 +401,72 @@ def test_the_first_answer_can_be_driven_and_exact_ones_are_in_order(words: str) 
         assert differ(one.figures, other.figures)
     with pytest.raises(BadInput, match='prefer="small": take balanced or exact'):
         linkanim.function(words, 1, 4, prefer="small")
+
+
+FREUDENSTEIN = [(40, 70), (45, 76), (50, 83)]
+
+
+def freudenstein(pairs: list[tuple[int, int]]) -> list[mpmath.mpf]:
+    """Return crank, coupler and rocker for a ground of 100, from the three equations in fifty digits."""
+    with mpmath.workdps(50):
+        angles = [(mpmath.radians(one), mpmath.radians(other)) for one, other in pairs]
+        rows = [[mpmath.cos(psi), -mpmath.cos(theta), 1] for theta, psi in angles]
+        k1, k2, k3 = mpmath.lu_solve(rows, [mpmath.cos(theta - psi) for theta, psi in angles])
+        crank, rocker = 1 / k1, 1 / k2
+        coupler = mpmath.sqrt(1 + crank**2 + rocker**2 - 2 * crank * rocker * k3)
+        return [100 * crank, 100 * coupler, 100 * rocker]
+
+
+@pytest.mark.parametrize(
+    "pairs", [FREUDENSTEIN, [(30, 60), (60, 70), (90, 85)], [(90, 85), (30, 60), (60, 70)]]
+)
+def test_three_pairs_of_angles_are_freudenstein_s_to_the_digits(pairs: list[tuple[int, int]]) -> None:
+    (found,) = linkanim.function(np.radians(pairs), pairs=True)
+    exact = freudenstein(pairs)
+    lengths = [found.parameters[name] for name in ("crank", "coupler", "rocker")]
+    assert lengths == pytest.approx([float(one) for one in exact], rel=1e-12)
+    motion = found.scene.solve(angle=np.radians([one for one, _ in pairs]), derivatives=0)
+    assert np.degrees(motion.angle["rocker"]) == pytest.approx([other for _, other in pairs], abs=1e-10)
+    assert found.error < 1e-10
+    assert sorted(found.points) == pytest.approx(sorted(one for one, _ in pairs))
+
+
+@pytest.mark.parametrize(
+    ("kind", "pairs"),
+    [
+        ("four-bar", [(0, 0), (20, 12), (40, 25), (60, 40)]),
+        ("four-bar", [(0, 0), (20, 12), (40, 25), (60, 40), (80, 60)]),
+        ("slider-crank", [(30, 100), (60, 85), (90, 65)]),
+        ("slider-crank", [(30, 100), (60, 85), (90, 65), (100, 60)]),
+    ],
+    ids=["four", "five", "three places", "four places"],
+)
+def test_pairs_are_taken_between_which_nothing_is_wanted(kind: str, pairs: list[tuple[int, int]]) -> None:
+    sliding = kind == "slider-crank"
+    turned = np.radians([one for one, _ in pairs])
+    wanted = np.array([other for _, other in pairs], dtype=float)
+    rows = np.column_stack([turned, wanted if sliding else np.radians(wanted)])
+    for found in linkanim.function(rows, kind=kind, pairs=True):
+        motion = found.scene.solve(angle=found.input_start + turned - turned[0], derivatives=0)
+        reached = motion.travel["slider"] if sliding else np.degrees(np.unwrap(motion.angle["rocker"]))
+        assert reached - reached[0] == pytest.approx(wanted - wanted[0], abs=1e-9)
+        assert len(pairs) > 3 or reached[0] == pytest.approx(wanted[0], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rows", "options", "said"),
+    [
+        ([(1, 1), (2, 2)], {}, "2 pairs are given: a linkage takes 3 to 5"),
+        ([(1, 1), (1, 2), (2, 2)], {}, "two pairs begin with 57.2958 deg"),
+        ([(0, 1), (1e-3, 2), (2e-3, 2)], {}, "turn the crank by 0.114592 deg"),
+        ([(0.1, 1), (0.5, 1.2), (0.9, 1.5)], {"points": 3}, "pairs are taken as they are: leave out ranges"),
+        ([(math.nan, 1), (0.5, 1.2), (0.9, 1.5)], {}, "3 pairs are given"),
+        ("x^2", {}, "give rows of two numbers"),
+        (np.radians([(20, 210), (45, 238), (60, 260)]), {}, "add 180 deg to all of the rocker's angles"),
+        (np.radians([(0, 0), (15, 12), (30, 20), (50, 40), (60, 60)]), {}, "on one branch"),
+    ],
+    ids=["two", "one angle twice", "too narrow", "points", "no number", "words", "turned round", "none"],
+)
+def test_pairs_that_no_linkage_takes_are_refused(rows: Any, options: dict[str, Any], said: str) -> None:
+    with pytest.raises(BadInput, match=said):
+        linkanim.function(rows, pairs=True, **options)

@@ -15,7 +15,7 @@ from linkanim.errors import BadInput
 from linkanim.intake import Intake, named, read_numbers
 from linkanim.manifest import Output
 from linkanim.synthesis.generation import Generated, function
-from linkanim.units import significant
+from linkanim.units import shown, significant
 
 _TABLE_FILE = Intake("a table of x and y", most_bytes=1_000_000, most_values=100_000)
 _SUFFIXES = (".csv", ".txt", ".tsv", ".dat")
@@ -27,8 +27,15 @@ def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; draw the error where asked to."""
     target = target_of(options.output_file, "function.toml", options.count)
     chart = None if options.chart is None else checked_target(options.chart, _CHARTS, [options.given])
-    given = _table(Path(options.given)) if _names_a_file(options.given) else options.given
+    if options.pairs and chart is not None:
+        raise BadInput("between pairs nothing is wanted, so there is no error to draw; leave out --chart")
     sliding = options.kind == "slider-crank"
+    given: str | list[tuple[float, float]] = options.given
+    if options.pairs:
+        rows = _table(Path(options.given)) if _names_a_file(options.given) else _pairs(options.given)
+        given = [(math.radians(x), y if sliding else math.radians(y)) for x, y in rows]
+    elif _names_a_file(options.given):
+        given = _table(Path(options.given))
     found = function(
         given,
         options.first,
@@ -38,6 +45,7 @@ def run(options: Namespace) -> None:
         count=options.count,
         level=not options.chebyshev,
         prefer=options.prefer,
+        pairs=options.pairs,
         **_scale("input", options.input, units.angle),
         **_scale("output", options.output, _length if sliding else units.angle),
         name=target.stem,
@@ -62,6 +70,17 @@ def _table(path: Path) -> list[tuple[float, float]]:
         if len(numbers) != 2:
             raise BadInput(f"{where}: line {line} has {len(numbers)} columns; give x and y")
     return [(row.numbers[0], row.numbers[1]) for row in rows]
+
+
+def _pairs(text: str) -> list[tuple[float, float]]:
+    """Return the numbers of a text such as "40:70, 45:76, 50:83"."""
+    try:
+        rows = [tuple(map(float, pair.split(":"))) for pair in text.split(",")]
+    except ValueError:
+        rows = []
+    if not rows or any(len(row) != 2 for row in rows):
+        raise BadInput(f'{shown(text)} is no list of pairs; write them as in "40:70, 45:76, 50:83"')
+    return [(row[0], row[1]) for row in rows]
 
 
 def _length(text: str) -> float:
