@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -138,6 +139,62 @@ def test_a_length_is_called_by_key_or_by_body() -> None:
 def test_what_cannot_be_solved_is_refused_in_a_sentence(given: tuple[Any, ...], words: str) -> None:
     with pytest.raises(BadInput, match=words):
         linkanim.solve_many("crank-rocker", *given)
+
+
+# A swing below the ground line, which a stated start asks for.
+RIGHT = """
+[drive]
+joint = "A"
+speed = "20 rpm"
+start = "-120 deg"
+[ground]
+O2 = [0, 0]
+O4 = { length = 50, angle = "20 deg" }
+[joints.A]
+crank = "O2"
+length = 35
+[joints.B]
+from = ["A", "O4"]
+length = [20, 40]
+side = "left"
+"""
+
+
+@pytest.mark.parametrize("start", ["-30 deg", "80 deg", "179 deg"])
+def test_of_two_ranges_it_is_the_one_with_the_start(
+    start: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr("linkanim.scenes.many.with_dimensions")
+    path = tmp_path / "right.toml"
+    path.write_text(RIGHT.replace("-120 deg", start), encoding="utf-8")
+    scene = load(str(path))
+    lengths = {"A.length": [34.0, 35.0, 36.0], "O4.length": [51.0, 50.0, 49.0]}
+    found = solve_many(scene, lengths, [0.0, 1.0, 4.0], derivatives=2)
+    for row in range(3):
+        own = alone(scene, lengths, row)
+        assert own is not None
+        assert off(found, row, own) <= NEAR
+
+
+def test_a_pin_that_is_measured_from_another_one_keeps_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr("linkanim.scenes.many.with_dimensions")
+    scene = load("six-bar")
+    numbers = {name: number for name, number in named_lengths(scene).items() if name.startswith("lengths")}
+    for name, number in numbers.items():
+        (value,) = (one.value for one in dimensions(scene) if one.key == number.key)
+        lengths = {name: [1.01 * value]}
+        own = alone(scene, lengths, 0)
+        assert own is not None
+        assert off(solve_many(scene, lengths, 0.7, derivatives=2), 0, own) <= NEAR, name
+    assert len(numbers) == 8
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "slider-crank", "press", "rocker-driven", "watt-1"])
+def test_linkages_like_the_scene_are_solved_together(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = load(name)
+    monkeypatch.delattr("linkanim.scenes.many.with_dimensions")
+    found = solve_many(scene, lengths_about(scene, 0.001, 5), [0.0, 1.0, 2.0, 3.0, 4.0])
+    assert all(np.isfinite(places).all() for places in found.position.values())
 
 
 def test_other_lengths_of_one_form_record_nothing_anew(monkeypatch: pytest.MonkeyPatch) -> None:
