@@ -34,6 +34,7 @@ from linkanim.mechanics.linkage import (
 )
 from linkanim.mechanics.motion import mechanism
 from linkanim.mechanics.reactions import Reactions, guided, meeting, meshing, reactions
+from linkanim.scenes import load
 
 PUBLISHED = json.loads((Path(__file__).parent / "forces.json").read_text(encoding="utf-8"))
 
@@ -164,6 +165,15 @@ def test_the_squeezer_at_rest_has_a_force_on_each_of_the_four_bodies_that_meet_i
     assert found.effort == pytest.approx(case["inputs"]["drive_moment"], rel=1e-9)
     at_e = np.array(list(found.joints["E"].values()))
     assert at_e.sum(axis=0) == pytest.approx([0, 0], abs=1e-12)
+
+
+def test_the_squeezer_of_the_catalogue_has_the_masses_and_the_forces_of_the_test_set() -> None:
+    scene, case = load("andrews"), PUBLISHED["andrews_at_rest"]
+    known, (_, acceleration) = case["state"]["beta"], andrews()
+    found = reactions(scene.solve(angle=known, speed=0.0, acceleration=acceleration))
+    for body, force in case["force_at_E"].items():
+        assert found.joints["E"][body[3:]] == pytest.approx(force, abs=1e-8), body
+    assert found.effort == pytest.approx(case["inputs"]["drive_moment"], rel=1e-9)
 
 
 def test_one_link_with_a_load_at_its_end_has_the_forces_of_the_closed_formula() -> None:

@@ -54,6 +54,8 @@ def test_an_arrow_is_as_long_as_the_force_of_its_name(name: str, speed: float) -
     seen = {one.symbol: one for one in found.seen(pose, VIEW, shown.moving)}
     assert seen
     for symbol, arrow in seen.items():
+        if symbol == "P_{gas}":  # a load, which is given
+            continue
         assert abs(arrow.reach) == pytest.approx(scale * abs(known[symbol].read(pose)), rel=1e-9), symbol
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,8 +40,9 @@ def test_a_quick_return_has_the_time_ratio_of_its_arc_cosine(name: str, cosine: 
     assert load(name).info.time_ratio == pytest.approx((math.pi - beta) / beta, rel=1e-9)
 
 
-def test_the_engine_s_torque_is_that_of_its_inertia_and_its_weight() -> None:
-    scene = load("engine")
+def test_the_engine_s_torque_is_that_of_its_inertia_and_its_weight_and_the_gas_s_power() -> None:
+    whole = load("engine")
+    scene = replace(whole, linkage=replace(whole.linkage, loads=()))
     angles, step, r, rod = np.linspace(0, 6, 40), 1e-4, 0.05, 0.14
 
     def stored(angle: Any, speed: float) -> Any:
@@ -58,6 +60,13 @@ def test_the_engine_s_torque_is_that_of_its_inertia_and_its_weight() -> None:
         slope = np.diff([stored(angles + way, speed) for way in (-step, step)], axis=0)[0] / (2 * step)
         found = register(scene.linkage)["input.torque"].read(scene.solve(angle=angles, speed=speed))
         assert found == pytest.approx(slope, rel=1e-6, abs=1e-6 * np.abs(slope).max())
+        motion = whole.solve(angle=angles, speed=speed)
+        fired = register(whole.linkage)["input.torque"].read(motion) - found
+        (gas,) = whole.linkage.loads
+        force = np.interp(angles, gas.places, gas.values, period=2 * np.pi)
+        assert fired == pytest.approx(
+            force * motion.travel_velocity["slider"] * 1e-3 / speed, rel=1e-9, abs=1e-6
+        )
 
 
 def test_the_driven_piston_s_crank_runs_on_through_both_dead_centres() -> None:
