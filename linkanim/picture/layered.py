@@ -119,6 +119,10 @@ class Layered:
         return scale * at, turn * bar / abs(bar)
 
 
+_APART = 0.5
+"""How far layers are lifted, from 0 to 1, where a pin is named in each of its layers."""
+
+
 class LayerView(NamedTuple):
     """How parts are seen: how far they are lifted and aslant, and where the plane lies in pixels."""
 
@@ -203,7 +207,7 @@ def lifted(
             if layer < pin.high and view.lift:
                 above = complex(view.seen(at, layer + 1)[0])
                 yield Layer(theme.outline, segments(place, above, 1.4 * pixel), 0.75)
-            if layer == pin.high and pin.name:
+            if pin.name and (layer == pin.high or view.apart > _APART):
                 beside = place.real + 4 * pixel, place.imag - 1.1 * text
                 names.append(Caption(subscripted(pin.name), beside, text, theme.ink, halo=halo))
     if view.apart < _NUMBERED:

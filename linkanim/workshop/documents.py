@@ -16,8 +16,10 @@ from linkanim.paper.pdf import pages
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import cut, segments, stroke
+from linkanim.picture.text import subscripted
 from linkanim.workshop.made import MadeLinkage, MadePin
 from linkanim.workshop.nesting import FOOT, MARGIN, Laid, Oversize, nested
+from linkanim.workshop.parts import Plate
 from linkanim.workshop.shapes import Outline, arc, box, moved, polygon, rounded, upright
 
 if TYPE_CHECKING:
@@ -38,6 +40,8 @@ _READABLE = 2.0
 """The least height of words on paper, in mm; words with less room stand above their part."""
 _LETTER = 0.55
 """The usual width of a letter, in heights of the words."""
+_LETTERED = 0.26
+"""The height of a joint's letter beside its hole, in widths of a bar."""
 _SUNK = 1 / 3
 """How deep a printed pin's head and its cap lie in the plates, as a share of their thickness."""
 
@@ -45,7 +49,7 @@ _SUNK = 1 / 3
 class FlatPart(NamedTuple):
     """A flat part as it is cut: the words on it and their place, its outer edge, and the edges of its holes.
 
-    The words are at most `room` mm high.
+    The words are at most `room` mm high. `letters` are the joints of its holes, each beside its hole.
     """
 
     label: str
@@ -53,6 +57,20 @@ class FlatPart(NamedTuple):
     edge: Outline
     holes: tuple[Outline, ...]
     room: float = math.inf
+    letters: tuple[tuple[str, complex], ...] = ()
+
+
+def _letters(made: MadeLinkage, plate: Plate, label: str) -> Iterator[tuple[str, complex]]:
+    """Yield the joints of a plate's holes, each on the side of its hole that has most room, off the label."""
+    size, wide = _LETTERED * made.sizes.bar, 0.5 * _LETTER * len(label) * _LETTERED * made.sizes.bar
+    places = [(hole.joint, hole.at, hole.diameter / 2) for hole in plate.holes if hole.joint]
+    places += [(slot.joint, slot.begin, slot.radius) for slot in plate.slots]
+    for joint, at, radius in places:
+        away = plate.clearest - at
+        turned = away / abs(away) if abs(away) > radius else 1 + 0j
+        if radius < abs(away) < radius + 1.8 * size + wide:
+            turned = -turned
+        yield joint, at + turned * (radius + 0.8 * size)
 
 
 def flat_parts(made: MadeLinkage) -> list[FlatPart]:
@@ -62,7 +80,8 @@ def flat_parts(made: MadeLinkage) -> list[FlatPart]:
     for number, plate in enumerate(made.plates):
         # a slider's tongue has no room for its name
         label = made.numbers[number] if plate.role == "slider" else made.label(number)
-        parts.append(FlatPart(label, plate.clearest, plate.outline(grown), tuple(plate.cuts(grown))))
+        edges, letters = (plate.outline(grown), tuple(plate.cuts(grown))), tuple(_letters(made, plate, label))
+        parts.append(FlatPart(label, plate.clearest, *edges, letters=letters))
     for pin in made.pins:
         for ring in pin.spacers:
             hole = rounded([0j], made.sizes.hole / 2 - grown)
@@ -130,13 +149,16 @@ def svg(made: MadeLinkage) -> str:
     for part, at, turn in sheets.places():
         outlines = [moved(outline, at, turn) for outline in (part.edge, *part.holes)]
         lines.append(f'<path stroke="#f00" d="{"".join(_path(outline, high) for outline in outlines)}"/>')
-        if part.label:
-            place, lean = at + turn * part.at, -math.degrees(math.atan2(turn.imag, turn.real))
-            size = min(0.35 * made.sizes.bar, part.room)
+        lean = -math.degrees(math.atan2(turn.imag, turn.real))
+        size = min(0.35 * made.sizes.bar, part.room)
+        words = [(part.label, part.at, size)] if part.label else []
+        words += [(text, place, _LETTERED * made.sizes.bar) for text, place in part.letters]
+        for text, own, high_ in words:
+            place = at + turn * own
             how = f'transform="translate({place.real:.3f} {high - place.imag:.3f}) rotate({lean:.3f})"'
             lines.append(
-                f'<text {how} font-size="{size:.2f}" text-anchor="middle" dominant-baseline="central" '
-                f'font-family="sans-serif" fill="#00f">{escape(part.label)}</text>'
+                f'<text {how} font-size="{high_:.2f}" text-anchor="middle" dominant-baseline="central" '
+                f'font-family="sans-serif" fill="#00f">{escape(text)}</text>'
             )
     return "\n".join([*lines, "</svg>", ""])
 
@@ -193,10 +215,12 @@ def dxf(made: MadeLinkage) -> str:
             else:
                 points = [(corner.real, corner.imag, bulge) for corner, bulge in lying]
                 space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "CUT"})
-        if part.label:
-            place, lean = at + turn * part.at, math.degrees(math.atan2(turn.imag, turn.real))
-            size = min(0.3 * made.sizes.bar, part.room)
-            text = space.add_text(part.label, height=size, rotation=lean, dxfattribs={"layer": "ENGRAVE"})
+        lean = math.degrees(math.atan2(turn.imag, turn.real))
+        words = [(part.label, part.at, min(0.3 * made.sizes.bar, part.room))] if part.label else []
+        words += [(text, place, _LETTERED * made.sizes.bar) for text, place in part.letters]
+        for said, own, size in words:
+            place = at + turn * own
+            text = space.add_text(said, height=size, rotation=lean, dxfattribs={"layer": "ENGRAVE"})
             text.set_placement((place.real, place.imag), align=TextEntityAlignment.MIDDLE_CENTER)
     written = StringIO()
     drawing.write(written)
@@ -302,6 +326,11 @@ def _drawn(made: MadeLinkage, part: FlatPart, at: complex, turn: complex) -> Ite
             middle = at + turn * (outline[0][0] + outline[1][0]) / 2
             for arm in (1.5, 1.5j):
                 yield _line(made, middle - arm, middle + arm, _HAIR / 2)
+    for joint, own in part.letters:
+        size = min(max(_LETTERED * made.sizes.bar, _READABLE), 4.0)
+        place = _on_page(made, at + turn * own)
+        corner = place.real, place.imag - 0.5 * size * _PIXELS
+        yield Caption(subscripted(joint), corner, round(size * _PIXELS), _INK, "centre")
     if part.label:
         size = min(max(made.sizes.bar / 3, _READABLE), 5.0, max(part.room, _READABLE))
         # words are level on the page; those of a ring stay below its hole however it is turned

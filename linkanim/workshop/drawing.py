@@ -75,8 +75,19 @@ class Drawn:
         places = zip(self.made.pins, self.made.pinned(self.phase), strict=True)
         return [(pin, at) for pin, at in places if shown & set(pin.plates)]
 
+    def _open(self) -> list[tuple[str, int, complex]]:
+        """Return the holes through which no pin passes: the joint, the layer and the place, in mm."""
+        pinned, found = {pin.name for pin in self.made.pins}, []
+        placed = self.made.placed(self.phase)
+        for number in self._order():
+            at, turn = placed[number]
+            for hole in self.made.plates[number].holes:
+                if hole.joint and hole.joint not in pinned:
+                    found.append((hole.joint, self.made.layer[number], at + turn * hole.at))
+        return found
+
     def plan(self) -> Iterator[Item]:
-        """Yield the plates seen from above, each with its number, and the pins with their joints' names."""
+        """Yield the plates seen from above, each with its number, and the names of joints at their holes."""
         left = 110 if self.new is None else 12
         width, height = self.size
         view = view_of(self._box, Rect(left, 12, width - left - 12, height - 24))
@@ -96,11 +107,12 @@ class Drawn:
         yield from numbers
         radius = self._radius(view)
         taken = [_around(layer.loops[0]) for layer in (*discs, *numbers) if isinstance(layer, Layer)]
+        named = [(pin.name, at) for pin, at in pins if not pin.stuck]
+        named += [(joint, view.place((at.real, at.imag))) for joint, _, at in self._open()]
         yield from self._names(
             [
-                (pin.name, [(at.real + x, at.imag + y - 0.5 * _TEXT) for x, y in _corner_places(radius)])
-                for pin, at in pins
-                if not pin.stuck
+                (name, [(at.real + x, at.imag + y - 0.5 * _TEXT) for x, y in _corner_places(radius)])
+                for name, at in named
             ],
             taken,
         )
@@ -260,7 +272,11 @@ class Drawn:
         made, points = self.made, np.concatenate([loops[0] for loops in self._loops])
         view = LayerView.fitting(points, made.layers, apart, room_of(self.size))
         pose = made.scene.pose(self.phase, 0)
-        return lifted(made.layered, pose, made.scene.length_unit, view, self.theme, _TEXT)
+        yield from lifted(made.layered, pose, made.scene.length_unit, view, self.theme, _TEXT)
+        for joint, layer, at in self._open():
+            place = complex(view.seen(np.array([at]), layer)[0])
+            beside, halo = (place.real + 4, place.imag - 1.1 * _TEXT), Halo(self.theme.background, 2.5)
+            yield Caption(subscripted(joint), beside, _TEXT, self.theme.ink, halo=halo)
 
 
 def preview(made: MadeLinkage, size: tuple[int, int] = (1280, 640)) -> Illustration:

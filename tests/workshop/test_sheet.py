@@ -12,7 +12,7 @@ import pytest
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.text import Type
+from linkanim.picture.text import Type, subscripted
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
@@ -129,7 +129,8 @@ def test_names_of_pins_do_not_lie_over_each_other_or_numbers(name: str, picture:
             wide = type_.width(item.text, item.size, strong=item.strong)
             left = item.at[0] - {"left": 0.0, "centre": wide / 2}.get(item.anchor, wide)
             (numbers if item.strong else names).append(Rect(left, item.at[1], wide, item.size))
-    assert len(names) == sum(not pin.stuck for pin in made.pins)
+    open_ = len(drawn._open()) if picture == "plan" else 0
+    assert len(names) == sum(not pin.stuck for pin in made.pins) + open_
     assert not any(one.meets(other) for one, other in combinations(names, 2))
     assert picture == "side" or not any(one.meets(other) for one, other in product(names, numbers))
 
@@ -147,3 +148,16 @@ def test_the_page_is_well_formed_but_for_its_head() -> None:
     text = Sheet(make(load("press"), fit="Letter")).document()
     body = text[text.index("<body>") : text.index("</body>") + 7]
     ElementTree.fromstring(body)
+
+
+@pytest.mark.parametrize("picture", ["plan", "exploded"])
+@pytest.mark.parametrize("name", ["crank-rocker", "jansen"])
+def test_pictures_letter_holes_without_a_pin_too(name: str, picture: str) -> None:
+    made = make(load(name))
+    drawn = Drawn(made, 0.5, (820, 500))
+    words = [item.text for item in getattr(drawn, picture)() if isinstance(item, Caption)]
+    holes = {hole.joint for plate in made.plates for hole in plate.holes if hole.joint}
+    assert {subscripted(joint) for joint in holes} <= {*words}
+    if picture == "exploded":  # in each layer, the ground too
+        below = {pin.name for pin in made.pins if pin.low == 0 and not pin.stuck}
+        assert all(words.count(subscripted(joint)) > 1 for joint in below)
