@@ -69,8 +69,17 @@ class Intake:
 
         A folder, a pipe or a device is refused at once: nothing waits for it.
         """
+        data = self.read_bytes(path, where, missing=missing)
         try:
-            data = self._bytes(path, where)
+            return data.decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            line = data[: error.start].count(b"\n") + 1
+            raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
+
+    def read_bytes(self, path: Path, where: str, *, missing: str = "") -> bytes:
+        """Return a file's bytes, with the refusals of `read`."""
+        try:
+            return self._bytes(path, where)
         except FileNotFoundError:
             raise self.refusal(f"{where}: no such file{missing}") from None
         except (OSError, ValueError) as error:
@@ -78,11 +87,6 @@ class Intake:
                 raise WorkFailed(f"{where}: cannot be read: {os.strerror(error.errno).lower()}") from None
             reason = (error.strerror or "") if isinstance(error, OSError) else str(error)
             raise self.refusal(f"{where}: cannot be read: {reason.lower() or 'the system refuses'}") from None
-        try:
-            return data.decode("utf-8-sig")
-        except UnicodeDecodeError as error:
-            line = data[: error.start].count(b"\n") + 1
-            raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
 
     def json(self, path: Path, where: str, otherwise: str) -> Any:
         """Return the content of a JSON file; any other, or one with a NaN, is refused with `otherwise`."""

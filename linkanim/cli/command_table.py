@@ -21,6 +21,7 @@ _WITHOUT_PYGAME = (
     "info",
     "scenes",
     "check",
+    "convert",
     "path",
     "guide",
     "function",
@@ -211,6 +212,10 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim check my-linkage.toml",
         "linkanim check *.toml --json",
         "linkanim check --schema",
+    ),
+    "convert": (
+        "write a scene, or a linkage of another program, by its points and links",
+        "linkanim convert crank-rocker -o points.toml",
     ),
     "scenes": (
         "list the built-in scenes by chapter",

@@ -675,6 +675,14 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--json", "print a list with an object for each file"),
         _flag("--schema", "print the JSON Schema of scene files"),
     ),
+    "convert": (
+        _value(
+            "file FILE",
+            str,
+            "a scene, or a file of pyslvs, Linkage (.linkage2) or LInK (.npz), or a table",
+        ),
+        _value("-o --output OUT.toml", Path, "the scene file to write", required=True),
+    ),
     "scenes": (
         _value(
             "word WORD",

@@ -8,6 +8,8 @@ From the ground up; a module imports from those before it only:
     file_form  the form of a scene file, stated once
     schema     that form as a JSON Schema, and as a table to read
     links      from points in one pose and the links through them to joints
+    posing     a scene by its points in one pose
+    foreign    linkages of other programs
     reading    from a document to a checked scene, or to all that is wrong
     files      where scenes come from: the catalogue, and the user's files
     editing    a scene with other dimensions, unit, assembly, input

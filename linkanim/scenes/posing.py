@@ -1,0 +1,177 @@
+"""Say a scene by its points in one pose and the links through them.
+
+The document of any scene of cranks, dyads and gears becomes one with [points], [links], [slides] and [gears];
+a scene that has that form already keeps it.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from linkanim.errors import SceneError
+from linkanim.mechanics.linkage import RPP, Cylinder, DrivenSlider, Slide, Travel
+from linkanim.scenes.file_form import GROUND, SHORTHANDS
+from linkanim.scenes.links import in_degrees
+from linkanim.scenes.scene import Scene
+
+_DROPPED = ("joints", GROUND, "bodies", "drive", "drives", *SHORTHANDS)
+"""Tables that [points] and [links] replace, or that are said anew."""
+
+
+def as_points(scene: Scene) -> dict[str, Any]:
+    """Return the scene's document in that form, its pose being the one at the start.
+
+    SceneError for a scene without a document.
+    """
+    if not scene.document:
+        raise SceneError(f"{scene.name}: has no scene file behind it that could be written")
+    if "points" in scene.document:
+        return dict(scene.document)
+    return _PointForm(scene).document()
+
+
+class _PointForm:
+    """A scene's points, links and slides in the pose at the start."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self.linkage = scene, scene.linkage
+        drive = scene.linkage.drive
+        turns = drive.coordinate.is_angle and not isinstance(drive.actuator, Cylinder)
+        at = scene.solve(angle=drive.start, derivatives=0) if turns else None
+        if at is None or not math.isfinite(float(at.phase)):
+            at = scene.solve(phase=math.pi / 3, derivatives=0)
+        self.at = {name: complex(*map(float, place)) for name, place in at.position.items()}
+        self.links = self._links()
+
+    def _links(self) -> dict[str, list[str]]:
+        """Return the links by their joints: bodies that share two joints, apart from each other, are one."""
+        fixed = [pin.name for pin in self.linkage.pins]
+        found: list[list[str]] = [fixed]
+        for frame in self.linkage.rigid_bodies[1:]:
+            mine = [*frame]
+            for other in [one for one in found if self._as_one(one, mine)]:
+                found.remove(other)
+                mine = [*dict.fromkeys((*other, *mine))]
+            found.append(mine)
+        ground = next(one for one in found if not fixed or (fixed[0] in one and {*fixed} <= {*one}))
+        named: dict[str, list[str]] = {GROUND: ground}
+        for joints in (one for one in found if one is not ground and len(one) > 1):
+            bodies = (body.name for body in self.linkage.bodies if len({*body.joints} & {*joints}) > 1)
+            name = next(bodies, "".join(joints))
+            named[name if name not in named else f"{name}'"] = joints
+        for joint in self.linkage.joints:
+            if joint.travels:
+                named[self.block(joint.name)] = [joint.name]
+        return named
+
+    def _as_one(self, one: list[str], other: list[str]) -> bool:
+        first, *shared = [name for name in one if name in other] or [""]
+        return any(abs(self.at[name] - self.at[first]) > 0 for name in shared)
+
+    def block(self, joint: str) -> str:
+        """Return the name of the block that a joint is on."""
+        own = (body.name for body in self.linkage.bodies if body.slider == joint)
+        return next(own, f"block {joint}")
+
+    def link_of(self, *joints: str) -> str:
+        """Return the link that has all these joints."""
+        return next(name for name, on in self.links.items() if {*joints} <= {*on})
+
+    def _slides(self) -> Iterator[tuple[str, dict[str, str]]]:
+        for joint in self.linkage.joints:
+            first, *across = joint.slides or (None,)
+            if first is None:
+                continue
+            if joint.travels:
+                block = self.block(joint.name)
+                yield block, {"link": block, **self._line(first)}
+            else:
+                yield f"pin {first.point}", {"point": first.point, **self._line(first)}
+            for slide in across if isinstance(joint, RPP) else ():
+                angle = {"angle": self._line(joint.slides[0], slide.line.angle)["angle"]}
+                yield f"pin {slide.point}", {"point": slide.point, "on": self.block(joint.name), **angle}
+
+    def _line(self, slide: Slide, angle: float | None = None) -> dict[str, str]:
+        """Return the link that carries a line, and the line's direction in the pose."""
+        line, turned = slide.line, slide.line.angle if angle is None else angle
+        if line.on is None:
+            return {"on": GROUND, "angle": in_degrees(turned)}
+        way = self.at[line.on[1]] - self.at[line.on[0]]
+        return {
+            "on": self.link_of(*line.on),
+            "angle": in_degrees(math.remainder(phase(way) + turned, math.tau)),
+        }
+
+    def _gears(self) -> dict[str, dict[str, Any]]:
+        found = {}
+        for crank in self.linkage.cranks:
+            if crank.gear and not crank.gear.motor:
+                mate = self.linkage.crank(crank.gear.mate)
+                pair = [self.link_of(mate.pivot, mate.name), self.link_of(crank.pivot, crank.name)]
+                found[f"{mate.name}-{crank.name}"] = {"links": pair, "ratio": str(crank.gear.ratio)}
+        return found
+
+    def _lengths(self) -> dict[str, dict[str, float]]:
+        """Return the lengths of bars as they were stated."""
+        found: dict[str, dict[str, float]] = {}
+        for joint in self.linkage.joints:
+            for start, length in joint.bars:
+                link = found.setdefault(self.link_of(start, joint.name), {})
+                link[f"{start}-{joint.name}"] = length
+        return found
+
+    def _drive(self) -> dict[str, Any]:
+        drive, stated = self.linkage.drive, dict(self.scene.document.get("drive", {}))
+        kept = {key: stated[key] for key in ("speed", "returns") if key in stated}
+        driven = self.linkage.driven
+        if isinstance(driven.joint, DrivenSlider) and isinstance(drive.actuator, Travel):
+            ends = {"from": drive.actuator.first, "to": drive.actuator.last}
+            return {"slide": self.block(driven.joint.name), **ends, **kept}
+        cylinder = {"cylinder": _without_joint(stated["cylinder"])} if "cylinder" in stated else {}
+        links = [self.link_of(pin) for pin in (driven.pivot,)] + [
+            self.link_of(driven.pivot, driven.joint.name)
+        ]
+        return {"joint": driven.pivot, "links": links, **cylinder, **kept}
+
+    def _motors(self) -> dict[str, Any]:
+        found = {}
+        for name, motor in self.scene.document.get("drives", {}).items():
+            crank = self.linkage.crank(motor["joint"])
+            links = [GROUND, self.link_of(crank.pivot, crank.name)]
+            found[name] = {"joint": crank.pivot, "links": links, "speed": motor["speed"]}
+        return found
+
+    def _bodies(self) -> dict[str, Any]:
+        """Return what the document says of bodies beyond their joints."""
+        found = {}
+        for name, body in self.scene.document.get("bodies", {}).items():
+            further = {key: value for key, value in body.items() if key not in ("joints", "slider")}
+            if "joints" in body and ("com" in further or name not in self.links):
+                further["joints"] = body["joints"]
+            if further:
+                found[name] = further
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """Return the whole document."""
+        stated = {key: value for key, value in self.scene.document.items() if key not in _DROPPED}
+        points = {name: [place.real, place.imag] for name, place in self.at.items()}
+        tables: Mapping[str, Any] = {
+            "points": points,
+            "links": self.links,
+            "slides": dict(self._slides()),
+            "gears": self._gears(),
+            "lengths": self._lengths(),
+            "drive": self._drive(),
+            "drives": self._motors(),
+            "bodies": self._bodies(),
+        }
+        trace = {"trace": {"joints": list(self.scene.trace)}} if self.scene.trace else {}
+        return stated | {key: table for key, table in tables.items() if table} | trace
+
+
+def _without_joint(cylinder: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in cylinder.items() if key != "joint"}
