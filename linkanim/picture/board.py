@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import field
-from math import ceil, floor
+from math import ceil
 
 import numpy as np
 import pygame
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.layout import Layout
 from linkanim.picture.raster import Colour, Cover, Layer, Shapes, covers, paint
 from linkanim.picture.shapes import box
@@ -139,17 +139,13 @@ class Board:
         return max((self.type.width(line, size, strong=strong) for line in lines), default=0)
 
 
-class Rows(NamedTuple):
-    """Which rows of a list are shown, how far down on its sheet they begin, and how high each is."""
+Span = tuple[int, float, float]
+"""A row of a list, and where it begins and ends, down its sheet."""
 
-    shown: range
-    top: float
-    high: float
 
-    def at(self, y: float) -> int | None:
-        """Return the row at that height of the sheet; None above and below all rows."""
-        place = floor((y - self.top) / self.high)
-        return self.shown[place] if 0 <= place < len(self.shown) else None
+def spans(rows: range, top: float, high: float) -> tuple[Span, ...]:
+    """Return where rows stand that begin at `top` and are so `high`."""
+    return tuple((row, top + n * high, top + (n + 1) * high) for n, row in enumerate(rows))
 
 
 def around(count: int, chosen: int, room: int) -> range:

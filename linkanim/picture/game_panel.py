@@ -10,7 +10,7 @@ import numpy as np
 import pygame
 
 from linkanim.frozen import NamedTuple
-from linkanim.picture.board import Board
+from linkanim.picture.board import Board, Span
 from linkanim.picture.overlay import Choice, GamePanel, Mood, ScoreBar
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import box, stroke
@@ -50,20 +50,11 @@ def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
     return sheet
 
 
-class AnswerRows(NamedTuple):
-    """The top and the bottom of each answer on the panel's sheet."""
-
-    heights: tuple[tuple[float, float], ...]
-
-    def at(self, y: float) -> int | None:
-        """Return the answer at that height of the sheet; None between answers."""
-        return next((n for n, (top, end) in enumerate(self.heights) if top <= y < end), None)
-
-
-def answer_rows(board: Board, panel: GamePanel) -> AnswerRows:
+def answer_rows(board: Board, panel: GamePanel) -> tuple[Span, ...]:
     """Return where the answers are on the panel's sheet."""
     size, parts = _fitting(board, panel)
-    return AnswerRows(tuple((top, top + part.high) for part, top in _placed(parts, size) if part.is_answer))
+    heights = [(top, top + part.high) for part, top in _placed(parts, size) if part.is_answer]
+    return tuple((n, top, end) for n, (top, end) in enumerate(heights))
 
 
 def mood_colour(theme: Theme, mood: Mood) -> Colour:

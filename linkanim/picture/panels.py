@@ -6,16 +6,16 @@ The help has as many columns as the window has room for.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
-from math import ceil, floor
+from math import ceil
 from typing import Any
 
 import numpy as np
 import pygame
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.picture.board import STEP, Board, Rows, around
+from linkanim.picture.board import STEP, Board, Span, around, spans
 from linkanim.picture.game_panel import answer_rows, game_panel
 from linkanim.picture.layout import CAPTION_STEP
 from linkanim.picture.overlay import Button, Help, Overlay, Panel, Quantities
@@ -138,10 +138,10 @@ def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     return sheet
 
 
-def edit_rows(board: Board, panel: Panel) -> Rows:
+def edit_rows(board: Board, panel: Panel) -> tuple[Span, ...]:
     """Return where the rows are on the list's sheet."""
     parts = _fitting(board, panel)
-    return Rows(parts.rows, (parts.top - (STEP - 1) / 2) * parts.size, STEP * parts.size)
+    return spans(parts.rows, (parts.top - (STEP - 1) / 2) * parts.size, STEP * parts.size)
 
 
 def _fitting(board: Board, panel: Panel) -> _Division:
@@ -257,17 +257,17 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
     return sheet
 
 
-def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> str | None:
-    """Return the keys of the line at a place of the help's sheet; None where there is none."""
-    laid = _help_laid(board, shown)
-    number = floor((y / laid.size - 0.9) / _STEP + 0.12)
+def help_lines(board: Board, shown: tuple[Help, int]) -> tuple[Target, ...]:
+    """Return the places of the lines on the help's sheet, each with its keys."""
+    laid, found, keys = _help_laid(board, shown), [], ""
     for column, left in _help_columns(laid):
-        inside = left <= x <= left + column.keys + column.does + _HELP_GAP * laid.size
-        if inside and 0 <= number < len(column.lines) and not column.lines[number].heading:
-            # the text of keys may be broken into lines; only the first of these has the keys
-            whole = (line.keys for line in reversed(column.lines[: number + 1]) if line.keys)
-            return next(whole, None) if column.lines[number].does else None
-    return None
+        wide = column.keys + column.does + _HELP_GAP * laid.size
+        for n, line in enumerate(column.lines):
+            keys = line.keys or keys  # the text of a line may be broken; only its first part has the keys
+            if line.does and not line.heading:
+                top = (0.9 + (n - 0.12) * _STEP) * laid.size
+                found.append(Target("line", Rect(left, top, wide, _STEP * laid.size), keys))
+    return tuple(found)
 
 
 def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
@@ -421,10 +421,10 @@ def _scroll_bar(board: Board, sheet: pygame.Surface, track: Rect, rows: range, c
     paint(sheet, [Layer(board.theme.rule, [whole]), Layer(board.theme.dim, [part])])
 
 
-def quantity_rows(board: Board, shown: Quantities) -> Rows:
+def quantity_rows(board: Board, shown: Quantities) -> tuple[Span, ...]:
     """Return where the rows are on the list's sheet."""
     size = board.layout.small_size
-    return Rows(_rows_and_hint(board, shown)[0], (0.9 + 0.5 * (STEP + 1)) * size, STEP * size)
+    return spans(_rows_and_hint(board, shown)[0], (0.9 + 0.5 * (STEP + 1)) * size, STEP * size)
 
 
 def _rows_and_hint(board: Board, shown: Quantities) -> tuple[range, list[str]]:
@@ -488,6 +488,22 @@ def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool
 _VEIL = 170
 
 
+class Target(NamedTuple):
+    """A place that can be clicked, and its value.
+
+    It is a "list", a "row" with its number, the column of "boxes", the "track" of a scroll bar with the count
+    of rows, the "help", a "line" of it with its keys, or a "toast".
+    """
+
+    kind: str
+    place: Rect
+    value: Any = None
+
+    def moved(self, x: float, y: float) -> Target:
+        """Return the target by so much further right and down."""
+        return self._replace(place=self.place._replace(x=self.place.x + x, y=self.place.y + y))
+
+
 class Panels:
     """Draws overlays; the last panel of each kind is cached, so that an open panel costs one blit."""
 
@@ -495,20 +511,27 @@ class Panels:
         self.board = board
         self._kept: dict[Any, tuple[Any, Any]] = {}
 
-    def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw what an overlay holds: the help over a game or beside the edit list, words at the foot."""
+    def draw(self, surface: pygame.Surface, overlay: Overlay) -> tuple[Target, ...]:
+        """Draw what an overlay holds, and return where it can be clicked, what lies on top last."""
         self._marks(surface, overlay)
-        self._list(surface, game_panel, overlay.game, overlay.shut)
+        targets = [*self._list(surface, game_panel, answer_rows, overlay.game, overlay.shut)]
         if overlay.help:
             surface.blit(self._keep(_veil, self.board.layout.size), (0, 0))
-        left = self._list(surface, edit_list, overlay.panel, overlay.shut)
-        self._list(surface, quantity_list, overlay.quantities, overlay.shut)
+        listed = self._list(surface, edit_list, edit_rows, overlay.panel, overlay.shut)
+        targets += listed
+        targets += self._list(surface, quantity_list, quantity_rows, overlay.quantities, overlay.shut)
         if overlay.help:
+            left = self._beside(self._keep(edit_list, overlay.panel)) if overlay.panel else 0
             drawn, place = self._helped(overlay.help, left)
             surface.blit(drawn, (place.x, place.y))
+            lines = self._keep(help_lines, (overlay.help, self.board.layout.size[0] - left))
+            targets += [Target("help", place), *(one.moved(place.x, place.y) for one in lines)]
         if said := said_in(self.board, overlay):
             drawn, at = self._keep(foot, said)
             surface.blit(drawn, (round(at[0]), round(at[1])))
+            if said == (overlay.toast, True):
+                targets.append(Target("toast", Rect(*at, *drawn.get_size())))
+        return tuple(targets)
 
     def _helped(self, shown: Help, left: int) -> tuple[pygame.Surface, Rect]:
         """Return the help and its place, right of a list that takes `left` pixels of the window's left."""
@@ -519,89 +542,36 @@ class Panels:
         at = left + (wide - left - drawn.get_width()) // 2, int(high - drawn.get_height()) // 2
         return drawn, Rect(*at, *drawn.get_size())
 
-    def on_toast(self, overlay: Overlay, x: float, y: float) -> bool:
-        """Return whether a pixel is on the toast."""
-        if not overlay.toast:
-            return False
-        drawn, at = self._keep(foot, (overlay.toast, True))
-        return Rect(*at, *drawn.get_size()).holds(x, y)
+    def _list(
+        self, surface: pygame.Surface, make: Any, rows_of: Any, shown: Any, shut: float
+    ) -> Iterable[Target]:
+        """Draw a list, if one is open; return its places: of the list, its rows, its boxes, its scroll bar.
 
-    def help_at(self, overlay: Overlay, x: float, y: float) -> str | None:
-        """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
-        if not overlay.help:
-            return None
-        left = 0
-        if overlay.panel:
-            drawn = self._keep(edit_list, overlay.panel)
-            left = self._beside(drawn)
-        _, place = self._helped(overlay.help, left)
-        if not place.holds(x, y):
-            return None
-        room = self.board.layout.size[0] - left
-        return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
-
-    def _list(self, surface: pygame.Surface, make: Any, shown: object, shut: float) -> int:
-        """Draw a list, if one is open; return the width that it takes at the window's top left.
-
-        The share `shut` of it is beyond the left edge, or beyond the foot where it stands there.
+        The share `shut` of it is beyond the left edge, or beyond the foot where it stands there; it is
+        clicked where it goes.
         """
         if shown is None:
-            return 0
+            return ()
         drawn = self._keep(make, shown)
         left, top = self._listed(drawn)
+        wide, high = drawn.get_size()
         if top <= self.board.margin:
-            left -= round(shut * (left + drawn.get_width()))
+            surface.blit(drawn, (left - round(shut * (left + wide)), top))
         else:
-            top += round(shut * (surface.get_height() - top))
-        surface.blit(drawn, (left, top))
-        return self._beside(drawn)
+            surface.blit(drawn, (left, top + round(shut * (surface.get_height() - top))))
+        found = [] if make is game_panel else [Target("list", Rect(left, top, wide, high))]
+        for row, begin, end in self._keep(rows_of, shown):
+            found.append(Target("row", Rect(left, top + begin, wide, end - begin), row))
+        if make is quantity_list:
+            track = scroll_track(self.board, shown)
+            found += [Target("track", track, len(shown.rows)).moved(left, top)] if track else []
+            boxes = Rect(left, top, _BOX * self.board.layout.small_size, high)
+            found += [Target("boxes", boxes)] if shown.boxes else []
+        return found
 
     def _beside(self, drawn: pygame.Surface) -> int:
         """Return the width that a list takes at the window's top left."""
         return self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
-
-    def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
-        """Return the row of the open list under a pixel; -1 elsewhere on the list, None off it.
-
-        Between a game's answers it is None.
-        """
-        for make, rows_of, shown in (
-            (game_panel, answer_rows, overlay.game),
-            (edit_list, edit_rows, overlay.panel),
-            (quantity_list, quantity_rows, overlay.quantities),
-        ):
-            if shown:
-                drawn = self._keep(make, shown)
-                left, top = self._listed(drawn)
-                if not Rect(left, top, *drawn.get_size()).holds(x, y):
-                    return None
-                found: int | None = self._keep(rows_of, shown).at(y - top)
-                return -1 if found is None and shown is not overlay.game else found
-        return None
-
-    def is_at_boxes(self, overlay: Overlay, x: float) -> bool:
-        """Return whether a pixel is as far left as the boxes of the open list's rows, if these have some."""
-        shown = overlay.quantities
-        if shown is None or not shown.boxes:
-            return False
-        left, _ = self._listed(self._keep(quantity_list, shown))
-        return x < left + _BOX * self.board.layout.small_size
-
-    def scrolled_at(self, overlay: Overlay, x: float, y: float, *, held: bool) -> int | None:
-        """Return the row to which the scroll bar of the open list leads at a pixel; None off the bar.
-
-        While the bar is `held`, places beside it count, too.
-        """
-        shown = overlay.quantities
-        track = scroll_track(self.board, shown) if shown else None
-        if shown is None or track is None:
-            return None
-        left, top = self._listed(self._keep(quantity_list, shown))
-        place = track._replace(x=left + track.x, y=top + track.y)
-        if not (held or place.holds(x, y)):
-            return None
-        share = min(max((y - place.y) / place.height, 0.0), 1.0)
-        return round(share * (len(shown.rows) - 1))
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""

@@ -19,7 +19,7 @@ from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, ke
 from linkanim.picture.text import Lettering, Type
 
 if TYPE_CHECKING:
-    from linkanim.picture.panels import Panels
+    from linkanim.picture.panels import Panels, Target
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """The most memory for cached shapes: that of so many pictures, and so many bytes."""
@@ -30,7 +30,8 @@ _SPARE_LABELS = 8
 class SurfacePrinter:
     """Prints pictures on surfaces: one pose of one picture has the same bytes, whatever was printed before.
 
-    It caches what recurs from picture to picture, which only saves time.
+    It caches what recurs from picture to picture, which only saves time. Its `targets` are where what was
+    printed last can be clicked.
     """
 
     def __init__(self) -> None:
@@ -40,6 +41,7 @@ class SurfacePrinter:
         self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
         self._labels = _Labels()
         self._panels: Panels | None = None
+        self.targets: tuple[Target, ...] = ()
         self._paper: tuple[Group, pygame.Surface] | None = None
 
     def print(
@@ -77,32 +79,11 @@ class SurfacePrinter:
                     cover.put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
+        self.targets = ()
         if overlay != NOTHING_OVER:
-            self._panels_of(picture).draw(canvas, overlay)
+            self.targets = self._panels_of(picture).draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
-
-    def row_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> int | None:
-        """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
-        return self._panels_of(picture).row_at(overlay, x, y)
-
-    def is_at_boxes(self, picture: Picture, overlay: Overlay, x: float) -> bool:
-        """Return whether a pixel is as far left as the boxes of the open list's rows, if these have some."""
-        return self._panels_of(picture).is_at_boxes(overlay, x)
-
-    def scrolled_at(
-        self, picture: Picture, overlay: Overlay, x: float, y: float, *, held: bool
-    ) -> int | None:
-        """Return the row to which the scroll bar of the open list leads at a pixel; None beside the bar."""
-        return self._panels_of(picture).scrolled_at(overlay, x, y, held=held)
-
-    def on_toast(self, picture: Picture, overlay: Overlay, x: float, y: float) -> bool:
-        """Return whether a pixel is on the toast."""
-        return self._panels_of(picture).on_toast(overlay, x, y)
-
-    def help_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> str | None:
-        """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
-        return self._panels_of(picture).help_at(overlay, x, y)
 
     def _on_still(
         self, surface: pygame.Surface, picture: Picture, still: tuple[Group, ...]

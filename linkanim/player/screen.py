@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from math import ceil, hypot, log10
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pygame
@@ -40,6 +40,9 @@ from linkanim.player.framing import Drawer, Fade, Framing
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.state import State
 from linkanim.scenes.editing import handles
+
+if TYPE_CHECKING:
+    from linkanim.picture.panels import Target
 
 # The display: a window on a real screen.
 
@@ -273,6 +276,7 @@ class Screen:
         self.over = Overlay()
         self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
         self._pointer: object = None
+        self._targets: tuple[Target, ...] = ()
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is shown."""
@@ -294,10 +298,12 @@ class Screen:
 
     def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:
+            self._targets = ()
             self._shelf.draw(surface, over.shelf)
         else:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
+            self._targets = self._printer.targets
             self._row.draw(surface, picture.layout, over.row)
             self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
         self._bar.draw(surface, self._bar_layout(over), theme_of(state.look.theme), over.bar)
@@ -327,7 +333,9 @@ class Screen:
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
         surface, self.state = display_surface().copy(), state
+        shown = self._targets
         self._paint(surface, self._framing.fitting(state, surface.get_size()), state, over)
+        self._targets = shown
         return surface
 
     @property
@@ -414,13 +422,19 @@ class Screen:
         shown = self.over.slider
         return slider_step(self._framing.last.layout, shown, x) if shown else 0
 
+    def _target(self, kind: str, x: float, y: float) -> Target | None:
+        """Return the topmost target of a kind at a pixel; None where there is none."""
+        found = (one for one in reversed(self._targets) if one.kind == kind and one.place.holds(x, y))
+        return next(found, None)
+
     def on_toast(self, x: float, y: float) -> bool:
         """Return whether a pixel is on the toast."""
-        return self._printer.on_toast(self._framing.last, self.over, x, y)
+        return self._target("toast", x, y) is not None
 
     def help_at(self, x: float, y: float) -> str | None:
         """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
-        return self._printer.help_at(self._framing.last, self.over, x, y)
+        line = self._target("line", x, y)
+        return line.value if line else "" if self._target("help", x, y) else None
 
     def button_at(self, x: float, y: float) -> int | None:
         """Return the number of the command of the bar under a pixel, -1 between them; None off the bar."""
@@ -503,15 +517,21 @@ class Screen:
 
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
-        return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
+        row = self._target("row", x, y)
+        return row.value if row else -1 if self._target("list", x, y) else None
 
     def on_box(self, x: float) -> bool:
         """Tell whether a pixel is in the column of the open list's boxes, where its rows have boxes."""
-        return self._printer.is_at_boxes(self._framing.last, self.over, x)
+        return any(one.kind == "boxes" and x < one.place.right for one in self._targets)
 
     def scrolled_to(self, x: float, y: float, *, held: bool) -> int | None:
         """Return the row to which the list's scroll bar leads at a pixel; None beside the bar."""
-        return self._printer.scrolled_at(self._framing.last, self.over, x, y, held=held)
+        track = next((one for one in self._targets if one.kind == "track"), None)
+        if track is None or not (held or track.place.holds(x, y)):
+            return None
+        share = min(max((y - track.place.y) / track.place.height, 0.0), 1.0)
+        row: int = round(share * (track.value - 1))
+        return row
 
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""

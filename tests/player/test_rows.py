@@ -9,7 +9,6 @@ import pygame
 import pytest
 from playing import Player, the
 
-from linkanim.picture.board import Rows
 from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
@@ -194,8 +193,3 @@ def test_a_tape_keeps_a_dragged_value() -> None:
 def test_a_row_that_is_not_there_is_not_taken(row: int) -> None:
     state = advance(begin(load("crank-rocker")), [Action("edit")])
     assert advance(state, [Action("grab_row", row), Action("pull", 3)]).scene is state.scene
-
-
-def test_a_place_between_rows_is_none() -> None:
-    rows = Rows(range(3, 6), 10.0, 20.0)
-    assert [rows.at(y) for y in (9.9, 10.0, 29.9, 30.0, 69.9, 70.0)] == [None, 3, 3, 4, 5, None]
