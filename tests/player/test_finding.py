@@ -57,7 +57,7 @@ DONE: dict[str, Callable[[State], object]] = {
     "free length": lambda state: at_row(state, "Return spring, free length"),
     "closure": lambda state: state.scene.linkage != load("press").linkage,
     "transmission angle": lambda state: state.phase == pytest.approx(0.92483, abs=1e-4),
-    "dead centre": lambda state: state.phase == pytest.approx(5.52726, abs=1e-4),
+    "dead centre 1": lambda state: state.phase == pytest.approx(5.52726, abs=1e-4),
     "help": lambda state: state.help,
     "instant": lambda state: state.look.centres or state.constructed,
     "joint b": lambda state: state.top and state.top.title == "Joint B",
