@@ -213,6 +213,11 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim check *.toml --json",
         "linkanim check --schema",
     ),
+    "closures": (
+        "find every way in which a linkage can be put together",
+        "linkanim closures klann",
+        "linkanim closures crank-rocker -o closures.png",
+    ),
     "convert": (
         "write a scene, or a linkage of another program, by its points and links",
         "linkanim convert crank-rocker -o points.toml",

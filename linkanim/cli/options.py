@@ -675,6 +675,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--json", "print a list with an object for each file"),
         _flag("--schema", "print the JSON Schema of scene files"),
     ),
+    "closures": (
+        _SCENE,
+        _flag("--json", "print a list with an object for each closure; angles in radians"),
+        _output("draw them on a sheet, OUT.png, or running, OUT.gif"),
+    ),
     "convert": (
         _value(
             "file FILE",

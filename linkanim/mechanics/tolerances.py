@@ -126,6 +126,8 @@ SOLVED_TO_ALL_DIGITS = 1e-14
 """A correction in 38 digits after which the next one would be below 1e-27."""
 LIMIT_SOLVED = 1e-34
 """A correction of a limit, in 38 digits, below which it is found."""
+ONE_CLOSURE = 1e-6
+"""What two solutions from different starts differ by, and are one closure."""
 SAME_POSE = 1e-9
 """What a pose may be off another one, and be the same: the closure that is followed is back."""
 

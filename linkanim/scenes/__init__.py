@@ -13,6 +13,7 @@ From the ground up; a module imports from those before it only:
     reading    from a document to a checked scene, or to all that is wrong
     files      where scenes come from: the catalogue, and the user's files
     editing    a scene with other dimensions, unit, assembly, input
+    closures   every way in which a scene can be put together
     many       a scene with many lengths, solved in one call
 """
 
