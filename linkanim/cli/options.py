@@ -669,7 +669,16 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--all", "add every quantity, and a chart of each"),
         _look("report"),
     ),
-    "info": (_SCENE, _flag("--json", "print one object; angles in radians, times in seconds")),
+    "info": (
+        _SCENE,
+        _value(
+            "--fluctuation F",
+            positive,
+            "how much the speed may change, as a share of its mean, with the flywheel (default: 0.02)",
+            0.02,
+        ),
+        _flag("--json", "print one object; angles in radians, times in seconds"),
+    ),
     "check": (
         _takes("files", nargs="*", metavar="FILE", help="the scene files to check"),
         _flag("--json", "print a list with an object for each file"),

@@ -18,6 +18,7 @@ From the ground up; a module imports from those before it only:
     reactions   what joints, guides and the ground carry
     motion      a linkage made ready; its motion and its poses
     many        linkages of one form, each at its own phase, in one call
+    balance     the work that a flywheel stores, counterweights of a four-bar
     nearest     the phase at which a point is nearest to a place
     quantities  the register of all that is known of a linkage
     polygons    velocity and acceleration polygons

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
+from linkanim.mechanics.balance import surplus
 from linkanim.mechanics.forces import Demand, demand, usual_effort
 from linkanim.mechanics.groups import LinkGroup, group_of
 from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
@@ -613,6 +614,13 @@ class Info:
         if not self.mechanism.linkage.forceful:
             return None
         return demand(self._driven, self.mechanism.phases)
+
+    @cached_property
+    def surplus(self) -> float | None:
+        """The work (J) that a flywheel has to store; None where the input does not turn fully or is free."""
+        if not (self.full_turn and self.mechanism.linkage.forceful):
+            return None
+        return surplus(self._driven, self.mechanism.phases)
 
     @cached_property
     def usual_effort(self) -> float | None:

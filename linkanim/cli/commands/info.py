@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from cmath import phase
+from collections.abc import Iterator
+from math import degrees
 
 from linkanim.export import json_text
+from linkanim.mechanics.balance import Counterweight, Shaking, balanced, counterweights, flywheel, shaking
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
+from linkanim.units import rpm, significant, typeset
 
 _OF_A_SCENE = ("title", "chapter", "source", "look_at", "length_unit")
 _OF_ITS_MOTION = (
@@ -21,15 +26,70 @@ def run(options: Namespace) -> None:
     """Print the scene's class, limits and what follows from them, in words or as one JSON object."""
     scene = load(options.scene)
     if options.json:
-        print(json_text(as_object(scene), indent=2))
+        print(json_text(as_object(scene) | evened(scene, options.fluctuation), indent=2))
     else:
-        print(as_words(scene))
+        print(as_words(scene, options.fluctuation))
 
 
-def as_words(scene: Scene) -> str:
+def as_words(scene: Scene, fluctuation: float) -> str:
     """Return a label and a value on each line, the values below each other."""
-    width = max(len(label) for label, _ in scene.lines)
-    return "\n".join(f"{label:<{width}}  {value}" for label, value in scene.lines if value)
+    lines = [*scene.lines, *_evened_lines(scene, fluctuation)]
+    width = max(len(label) for label, _ in lines)
+    return "\n".join(f"{label:<{width}}  {value}" for label, value in lines if value)
+
+
+def evened(scene: Scene, fluctuation: float) -> dict[str, object]:
+    """Return what evens out a machine with masses or loads, as `--json` prints it; nothing of others.
+
+    `work_surplus` (J) and the `flywheel_inertia` (kg m²) with which the speed changes by the `fluctuation`;
+    the `counterweights` of a four-bar with a heavy coupler, and the greatest `shaking_force` (N) and
+    `shaking_moment` (N m) of inertia without them and with them.
+    """
+    facts: dict[str, object] = {}
+    if (work := scene.info.surplus) is not None:
+        facts |= {"work_surplus": work, "fluctuation": fluctuation}
+        facts["flywheel_inertia"] = flywheel(work, scene.linkage.drive.speed, fluctuation)
+    if weights := counterweights(scene.linkage):
+        facts["counterweights"] = [
+            {"body": one.body, "mass": one.mass, "place": [one.place.real, one.place.imag]} for one in weights
+        ]
+        forces, moments = zip(*_shaken(scene, weights), strict=True)
+        facts |= {"shaking_force": forces, "shaking_moment": moments}
+    return facts
+
+
+def _shaken(scene: Scene, weights: tuple[Counterweight, ...]) -> list[Shaking]:
+    """Return what inertia does to the ground, without and with counterweights."""
+    linkages = (scene.linkage, balanced(scene.linkage, weights))
+    return [shaking(one, scene.linkage.drive.speed) for one in linkages]
+
+
+def _evened_lines(scene: Scene, fluctuation: float) -> Iterator[tuple[str, str]]:
+    """Yield the same as labels and values."""
+    speed = scene.linkage.drive.speed
+    if (work := scene.info.surplus) is not None:
+        inertia = significant(flywheel(work, speed, fluctuation), 4)
+        yield "surplus of work", f"{significant(work, 6)} J"
+        within = f"{significant(100 * fluctuation, 4)} % at {rpm(abs(speed))}"
+        yield "flywheel", f"{inertia} kg m² keeps the speed within {within}"
+    if weights := counterweights(scene.linkage):
+        yield "counterweights", "; ".join(_placed(scene, one) for one in weights)
+        (force, moment), (after, turning) = _shaken(scene, weights)
+        yield "shaking force", _from_to(force, after, "N")
+        yield "shaking moment", _from_to(moment, turning, "N m")
+
+
+def _placed(scene: Scene, one: Counterweight) -> str:
+    """Return a counterweight in words."""
+    far = f"{significant(abs(one.place), 4)} {scene.length_unit}"
+    turned = typeset(significant(degrees(phase(one.place)), 4))
+    named = scene.info.link_names[one.body]
+    return f"{significant(one.mass, 4)} kg on the {named}, {far} from its pin, {turned}° from its bar"
+
+
+def _from_to(before: float, after: float, unit: str) -> str:
+    told = (significant(one, 4) for one in (before, after))
+    return "up to {} {unit} of inertia, with the counterweights {} {unit}".format(*told, unit=unit)
 
 
 def as_object(scene: Scene) -> dict[str, object]:
