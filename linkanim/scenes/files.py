@@ -11,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from linkanim import intake
-from linkanim.errors import BadInput
+from linkanim.errors import BadInput, SceneError
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
 from linkanim.scenes.scene import Scene
@@ -98,6 +98,8 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     where = intake.named(text)
     missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
     document = parse(SCENE_FILE.read(path, where, missing=missing), where)
+    if "step" in document:
+        raise SceneError(f"{where}: is a lesson, not a scene; `linkanim play` and `linkanim record` take it")
     return _photographed(scene_from(document, name=intake.named(path.stem), where=where), path.parent)
 
 

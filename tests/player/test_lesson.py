@@ -233,6 +233,17 @@ def test_a_lesson_that_is_dropped_on_the_window_is_shown(player: Player, here: P
     assert player.state.lesson == (1, 2)
 
 
+def test_a_lesson_is_opened_from_the_shelf_and_is_no_scene(player: Player, here: Path) -> None:
+    (here / "mine.toml").write_text(2 * PLAIN)
+    player.press(pygame.K_o, CTRL)
+    player.type("mine")
+    player.press(pygame.K_RETURN)
+    player.tick()
+    assert player.state.lesson == (1, 2)
+    with pytest.raises(BadInput, match="is a lesson, not a scene"):
+        load("mine.toml")
+
+
 def test_a_tape_holds_the_steps_that_were_shown(player: Player, here: Path) -> None:
     text = f'{PLAIN}[[step]]\nscene = "whitworth"\nspeed = "7 rpm"\npose = "60 deg"\ncaption = "slow"\n'
     opened(player, here, text)
