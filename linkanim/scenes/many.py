@@ -99,7 +99,7 @@ def solve_many(
         told = ", ".join(f"{name} {one.shape}" for name, one in zip((*lengths, "phase"), given, strict=True))
         raise BadInput(f"solve_many({told}): give each N numbers, or one for all") from None
     *rows, phases = (one if one.shape == (count,) else np.repeat(one.ravel(), count) for one in given)
-    scene.check_turns("phase", max(float(phases.max()), -float(phases.min())))
+    scene.check_turns("phase", phases)
     w, a = scene.linkage.drive.speed if speed is None else float(speed), float(acceleration)
     form = _form(scene, tuple(number.key for number in chosen))
     places, results, left = form.solved(rows, phases, (w, a), derivatives)

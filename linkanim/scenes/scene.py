@@ -253,7 +253,7 @@ class Scene:
         if the input is a slider, for a travel if it is none, for anything but numbers, and beyond a billion
         turns.
         """
-        if sum(place is None for place in (angle, phase, travel)) != 2:
+        if (angle is None) + (phase is None) + (travel is None) != 2:
             raise BadInput("give either angle= or phase=, in radians, or travel= of a slider that drives")
         if travel is not None:
             return self._at_travel(travel, speed, acceleration, derivatives)
@@ -262,7 +262,7 @@ class Scene:
         check_derivatives(derivatives)
         by = "angle" if phase is None else "phase"
         where = given_numbers(by, angle if phase is None else phase)  # type: ignore[arg-type]
-        self.check_turns(by, float(abs(where).max(initial=0.0)))
+        self.check_turns(by, where)
         rate = self.linkage.drive.speed if speed is None else speed
         return self.mechanism.solve(
             **{by: where},
@@ -300,8 +300,12 @@ class Scene:
         """The greatest phase or angle (rad) at which a pose has all its digits."""
         return 2 * math.pi * MOST_TURNS_ON / max(self.mechanism.assembly.quickest / 2, 1.0)
 
-    def check_turns(self, what: str, size: float) -> None:
-        """Raise BadInput for a phase or angle (rad) so large that a pose would not have all its digits."""
+    def check_turns(self, what: str, places: NDArray[np.float64]) -> None:
+        """Raise BadInput for phases or angles (rad) so large that a pose would not have all its digits."""
+        # the sum of their squares takes a third of the time
+        if (flat := places.ravel()) @ flat <= self._most**2:
+            return
+        size = float(abs(places).max())
         if size > self._most:
             turns = f"{round(self._most / (2 * math.pi)):,}"
             raise BadInput(
@@ -336,12 +340,12 @@ class Scene:
         if not (type(phase) is type(rate) is type(acceleration) is float):
             phase, rate, acceleration = _as_floats(phase, rate, acceleration)
         if abs(phase) > self._most:
-            self.check_turns("phase", abs(phase))
+            self.check_turns("phase", given_numbers("phase", phase))
         return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the state for a pickle, without the quantities: these hold functions and are made anew."""
-        return {name: value for name, value in vars(self).items() if name != "quantities"}
+        """Return the state for a pickle, without what holds functions and is made anew."""
+        return {name: value for name, value in vars(self).items() if name not in ("quantities", "_forms")}
 
     def _repr_html_(self) -> str:
         """Return the scene's title and what is told of its linkage, as a notebook shows it."""

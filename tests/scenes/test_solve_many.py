@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -195,6 +196,13 @@ def test_linkages_like_the_scene_are_solved_together(name: str, monkeypatch: pyt
     monkeypatch.delattr("linkanim.scenes.many.with_dimensions")
     found = solve_many(scene, lengths_about(scene, 0.001, 5), [0.0, 1.0, 2.0, 3.0, 4.0])
     assert all(np.isfinite(places).all() for places in found.position.values())
+
+
+def test_a_scene_that_was_solved_so_goes_through_a_pickle() -> None:
+    scene = load("crank-rocker")
+    first = solve_many(scene, {"coupler": 84.0}, 0.4)
+    again = solve_many(pickle.loads(pickle.dumps(scene)), {"coupler": 84.0}, 0.4)
+    assert np.array_equal(first.position["B"], again.position["B"])
 
 
 def test_other_lengths_of_one_form_record_nothing_anew(monkeypatch: pytest.MonkeyPatch) -> None:
