@@ -27,7 +27,7 @@ COUNTED = [
     ("double-rocker", 2, 1),
     ("press", 4, 4),
     ("engine", 2, 2),
-    ("klann", 8, 8),
+    ("klann", 2, 2),
 ]
 
 
