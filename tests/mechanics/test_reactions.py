@@ -22,6 +22,7 @@ from linkanim.mechanics.linkage import (
     RRR,
     Body,
     Crank,
+    Damper,
     Drive,
     DrivenSlider,
     Line,
@@ -32,6 +33,7 @@ from linkanim.mechanics.linkage import (
     Spring,
     Travel,
 )
+from linkanim.mechanics.measures import line_direction, loaded
 from linkanim.mechanics.motion import mechanism
 from linkanim.mechanics.reactions import Reactions, guided, meeting, meshing, reactions
 from linkanim.scenes import load
@@ -361,6 +363,79 @@ def test_what_meets_is_known_without_a_pose(make: Make) -> None:
         toothed = {name for name, teeth in meshing(scene).items() if teeth}
         assert toothed == {name for name, gear in found.gears.items() if gear.tangential is not None}
         assert meshing(scene).keys() == found.gears.keys()
+
+
+def left_over(scene: Linkage, motion: Any) -> dict[str, tuple[complex, float]]:
+    """What forces, loads and inertia of each body leave over, and their moments about the origin (m)."""
+    found, metre = reactions(motion), scene.metre
+    at = {name: complex(*place) * metre for name, place in motion.position.items()}
+    bent = {name: complex(*place) * metre for name, place in motion.acceleration.items()}
+    sums: dict[str, list[Any]] = {body.name: [0j, 0.0] for body in scene.bodies}
+
+    def act(body: str | None, place: complex, force: complex, couple: float = 0.0) -> None:
+        if body in sums:
+            sums[body][0] += force
+            sums[body][1] += (place.conjugate() * force).imag + couple
+
+    def body_of(names: Any) -> str | None:
+        frames = scene.rigid_bodies
+        n = next((n for n, frame in enumerate(frames) if {*names} <= frame.keys()), -1)
+        return f"block {names[0]}" if n < 0 else f"b{n}" if n else None
+
+    for joint, bodies in found.joints.items():
+        for name, force in bodies.items():
+            act(name, at[joint], complex(*force))
+    for joint, slide in scene.slides.items():
+        direction = complex(*line_direction(motion, slide.line))
+        name, guide = f"block {joint}", found.guides[f"block {joint}"]
+        act(name, at[joint], 1j * direction * guide.force, guide.moment)
+        act(
+            body_of(slide.line.body) if slide.line.on else None,
+            at[joint],
+            -1j * direction * guide.force,
+            -guide.moment,
+        )
+        if joint == scene.drive.joint:
+            act(name, at[joint], direction * found.effort)
+    if isinstance(scene.driven.joint, Crank) and scene.drive.actuator.along is None:
+        act(body_of((scene.driven.pivot, scene.drive.joint)), 0j, 0j, found.effort)
+    for one in scene.loads:
+        own = scene.body(one.on)
+        arm, force = loaded(motion, one)
+        base = at[own.slider or own.joints[0]]
+        act(one.on, base + complex(*arm) * metre, complex(*force), one.torque)
+    struts: list[Spring | Damper] = [*scene.springs, *scene.dampers]
+    for strut in struts:
+        known = {**motion.spring, **motion.damper}[strut.name]
+        first, last = strut.between
+        pull = known.force * (at[last] - at[first]) / abs(at[last] - at[first])
+        for end, way in ((first, pull), (last, -pull)):
+            if end not in found.joints:  # it pulls at one body alone
+                act(body_of((end,)), at[end], way)
+    for body in scene.bodies:
+        assert body.mass is not None
+        place = at[body.slider] if body.slider else complex(*motion.com_position[body.name]) * metre
+        second = bent[body.slider] if body.slider else complex(*motion.com_acceleration[body.name]) * metre
+        turned = (body.inertia or 0.0) * motion.angular_acceleration[body.name] if body.inertia else 0.0
+        act(body.name, place, body.mass * (-1j * scene.gravity - second), -turned)
+    return {name: (force, moment) for name, (force, moment) in sums.items()}
+
+
+@pytest.mark.parametrize("make", EVERY)
+def test_all_that_acts_on_each_body_of_every_kind_is_its_inertia(make: Make) -> None:
+    for seed, linkage in enumerate(linkages(make, 6, seed=23)):
+        scene = laden(linkage, seed)
+        motion = mechanism(scene).pose(0.4 + seed, 3.0, -2.0, 2)
+        sizes = [abs(complex(*force)) for one in reactions(motion).joints.values() for force in one.values()]
+        if not np.isfinite(sizes).all():
+            continue
+        geared = {name for crank in scene.cranks if crank.gear for name in (crank.name, crank.gear.mate)}
+        reach = max(abs(complex(*place)) for place in motion.position.values()) * scene.metre
+        for body, (force, moment) in left_over(scene, motion).items():
+            if geared & {*scene.body(body).joints}:
+                continue
+            assert abs(force) < 1e-12 * max(sizes), body
+            assert abs(moment) < 1e-12 * max(sizes) * max(reach, 1.0), body
 
 
 SCENES: dict[str, Linkage] = {
