@@ -183,34 +183,37 @@ class FormGraph(Graph):
     """A graph some of whose inputs stand for many numbers, of which one, a sample, is known.
 
     Where formulas branch on such values, the sample decides, and what has to hold for the others to go the
-    same way is kept in `conditions`: values that are not negative then.
+    same way is kept in `conditions`: values that are not negative then. Where each way is right, the `usual`
+    numbers decide, so that it is the same way for every sample.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self._samples: dict[int, float] = {}
+        self._known: dict[int, tuple[float, ...]] = {}
         self.conditions: list[Value] = []
 
-    def sampled(self, name: str, sample: float) -> Expr:
-        """Return the named input, of which one value is known."""
+    def sampled(self, name: str, sample: float, usual: float) -> Expr:
+        """Return the named input, of which one value is known, and the usual one."""
         found = self.input(name)
-        self._samples[found.index] = sample
+        self._known[found.index] = sample, usual
         return found
 
-    def sample(self, value: Value) -> float:
-        """Return what a value is for the sample; TypeError where that is not known."""
+    def known(self, value: Value) -> tuple[float, ...]:
+        """Return what a value is for the sample, and for usual numbers; TypeError where that is not known."""
         if not isinstance(value, Expr):
-            return float(value)
-        if value.index not in self._samples:
+            return float(value), float(value)
+        if value.index not in self._known:
             if value.op == "input":
                 raise TypeError(f"{value.args[0]} has no sample")
-            known = [self.sample(arg) for arg in value.args if not isinstance(arg, str | LookUp)]
-            self._samples[value.index] = SAMPLED[value.op](*known)
-        return self._samples[value.index]
+            pairs = zip(
+                *[self.known(arg) for arg in value.args if isinstance(arg, Expr | float)], strict=True
+            )
+            self._known[value.index] = tuple(SAMPLED[value.op](*pair) for pair in pairs)
+        return self._known[value.index]
 
     def less(self, one: Value, other: Value) -> bool:
         """Tell whether one value is less than another, for the sample and all that are solved as it is."""
-        found = self.sample(one) < self.sample(other)
+        found = self.known(one)[0] < self.known(other)[0]
         self.conditions.append(other - one if found else one - other)
         return found
 
@@ -328,7 +331,15 @@ def known(value: Value) -> float:
     if not isinstance(value, Expr):
         return float(value)
     assert isinstance(value.graph, FormGraph)
-    return value.graph.sample(value)
+    return value.graph.known(value)[0]
+
+
+def usual(value: Value) -> float:
+    """Return a number; of a value with a sample its usual number."""
+    if not isinstance(value, Expr):
+        return float(value)
+    assert isinstance(value.graph, FormGraph)
+    return value.graph.known(value)[1]
 
 
 def _factored(value: Expr) -> tuple[Value | None, Expr]:

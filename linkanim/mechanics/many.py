@@ -78,6 +78,8 @@ class LinkageForm:
 
     linkage: Linkage
     made: Callable[[Sequence[Value]], Linkage] | None
+    usual: tuple[float, ...]
+    """The lengths of `linkage`."""
     programs: dict[int, list[Program]] = field(default_factory=dict, repr=False)
 
     @property
@@ -88,7 +90,7 @@ class LinkageForm:
         """
         drive, near = self.linkage.drive, self.linkage.near is self.linkage
         alone = self.made is None or drive.retraced or group_of(self.linkage) is not None
-        return near and not alone and drive.actuator is MOTOR
+        return near and not alone and drive.actuator == MOTOR
 
     def solved(
         self, lengths: Sequence[Array], phases: Array, rates: tuple[float, float], derivatives: int
@@ -142,7 +144,7 @@ def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Pr
     """Return the program for linkages that are like the one with these lengths."""
     graph = FormGraph()
     names = [f"l{n}" for n in range(len(sample))]
-    lengths = [graph.sampled(name, length) for name, length in zip(names, sample, strict=True)]
+    lengths = [graph.sampled(*one) for one in zip(names, sample, form.usual, strict=True)]
     x, second = graph.input("x"), graph.input("a", uniform=True)
     inputs = {**dict.fromkeys(names, True), "x": True}
     walk, places, apart = None, None, False

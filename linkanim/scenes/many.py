@@ -178,18 +178,21 @@ def _form(scene: Scene, keys: tuple[Key, ...]) -> LinkageForm:
     """Return the form of a scene's linkages with other values of some lengths; it is cached."""
     forms: dict[tuple[Key, ...], LinkageForm] = vars(scene).setdefault("_forms", {})
     if keys not in forms:
-        forms[keys] = LinkageForm(scene.linkage, _made(scene, keys))
+        own = {one.key: one.value for one in dimensions(scene)}
+        usual = tuple(own[key] for key in keys)
+        forms[keys] = LinkageForm(scene.linkage, _made(scene, keys, usual), usual)
     return forms[keys]
 
 
-def _made(scene: Scene, keys: tuple[Key, ...]) -> Callable[[Sequence[Value]], Linkage] | None:
+def _made(
+    scene: Scene, keys: tuple[Key, ...], usual: tuple[float, ...]
+) -> Callable[[Sequence[Value]], Linkage] | None:
     """Return the linkage of a scene as a function of some of its lengths; None where it is not linear."""
-    linkage, own = scene.linkage, {one.key: one.value for one in dimensions(scene)}
+    linkage = scene.linkage
     start, step = np.array(linkage.all_lengths), linkage.extent / 8
     rest = start.copy()
     parts: list[list[tuple[int, float]]] = [[] for _ in start]
-    for n, key in enumerate(keys):
-        value = own[key]
+    for n, (key, value) in enumerate(zip(keys, usual, strict=True)):
         one, two = (_lengths_with(scene, key, value + share * step) for share in (1, 2))
         if one is None or two is None or np.abs(two - 2 * one + start).max() > LINEAR * linkage.extent:
             return None

@@ -87,6 +87,8 @@ class BodyStyle(NamedTuple):
 
 
 FREE_STYLE = BodyStyle()
+_MADE_ANEW = frozenset({"quantities", "_lengths", "_forms"})
+"""What a scene knows that holds functions, and goes through no pickle."""
 
 
 @frozen
@@ -344,8 +346,8 @@ class Scene:
         return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the state for a pickle, without what holds functions and is made anew."""
-        return {name: value for name, value in vars(self).items() if name not in ("quantities", "_forms")}
+        """Return the state for a pickle, without what holds functions: that is made anew."""
+        return {name: value for name, value in vars(self).items() if name not in _MADE_ANEW}
 
     def _repr_html_(self) -> str:
         """Return the scene's title and what is told of its linkage, as a notebook shows it."""

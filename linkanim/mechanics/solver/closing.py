@@ -41,11 +41,11 @@ from linkanim.mechanics.arithmetic import (
     Vec,
     are_inputs,
     carried,
-    known,
     maximum,
     minimum,
     select,
     sqrt,
+    usual,
 )
 from linkanim.mechanics.groups import GroupPoint, GroupSlider
 from linkanim.mechanics.linkage import (
@@ -848,7 +848,7 @@ def _meet(
     less, is worked out; the shorter one's differs from it by ρ.
     """
     d, t, rho = triangle.across, triangle, triangle.ratio
-    if known(lengths[0]) < known(lengths[1]):
+    if usual(lengths[0]) < usual(lengths[1]):
         arm_a = d.scaled(t.near) + t.lift
         arm_b = arm_a - d
         turning_b = t.turn_of_longer(True)

@@ -37,10 +37,10 @@ from linkanim.mechanics.arithmetic import (
     Vec,
     arctan2,
     are_inputs,
-    known,
     over,
     select,
     sqrt,
+    usual,
 )
 from linkanim.mechanics.linkage import Crank, Joint, Linkage, Pin
 from linkanim.mechanics.precise import context, exactly, nearest_sum, sides, sine_and_cosine
@@ -326,7 +326,7 @@ def _turn(loop: PinLoop, square: Value, share: Value, rate: Value) -> Value:
     Where one of them is much longer, the half would cancel and leave few digits of a small remainder.
     """
     g, r, unit = loop.ground.high, loop.crank, loop.unit
-    if known(g) < 8 * known(r) and known(r) < 8 * known(g):
+    if usual(g) < 8 * usual(r) and usual(r) < 8 * usual(g):
         turned: Value = share * (rate * over(-loop.short * (r + g), unit)) + rate * 0.5
         return turned
     shared: Value = (square - over(loop.short * (2.0 * r), unit)) * share * rate
