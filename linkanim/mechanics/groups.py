@@ -117,9 +117,10 @@ class LinkGroup(Stated):
         offset = ((place - start) * direction_of(-slide.angle)).imag
         if slide.on == GROUND:
             return Line(first, slide.angle, offset)
-        second = next((name for name in others if carrier.place(name) != start), None)
-        if second is None:
+        if not others:
             return None
+        # of a linkage without its lengths all points are one
+        second = next((name for name in others if carrier.place(name) != start), others[0])
         turned = math.remainder(slide.angle - phase(carrier.place(second) - start), math.tau)
         return Line(first, turned, offset, (first, second))
 

@@ -16,7 +16,18 @@ from typing import Any
 import numpy as np
 
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.linkage import Body, Crank, Damper, Line, Linkage, Load, Spring, holding, share_of
+from linkanim.mechanics.linkage import (
+    Body,
+    Crank,
+    Damper,
+    Line,
+    Linkage,
+    Load,
+    Slide,
+    Spring,
+    holding,
+    share_of,
+)
 from linkanim.mechanics.precise import direction as exact_direction
 from linkanim.mechanics.tolerances import ASIDE, FEWER_ERRORS, ROUNDING, SLOW, STATED, STRAIGHT
 
@@ -616,6 +627,53 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
 
 
 PATH, CENTRE_PATH = _of_paths(""), _of_paths("com_")
+
+
+def slips(linkage: Linkage) -> dict[str, Slide]:
+    """Return what slides on links that move, by the link's name: of several on one link the first."""
+    found: dict[str, Slide] = {}
+    for joint in linkage.joints:
+        for slide in (one for one in joint.slides if one.start is not None):
+            axis = slide.line.on
+            for body in linkage.bodies:
+                if {*axis} <= {*body.joints} if axis else body.slider == slide.start:
+                    found.setdefault(body.name, slide)
+    return found
+
+
+def slip_of(motion: Any, link: str) -> tuple[Any, Any, Any, Any]:
+    """Return how far along its link's line a pin or block is, both rates, and its Coriolis acceleration.
+
+    With u along the line, w from its begin, and Ω and α of the link: s = u·w, s' = u·w' + Ω (u×w), and 2Ω s'
+    is the Coriolis acceleration, positive to the left of the line.
+    """
+    linkage = motion.mechanism.linkage
+    slide = slips(linkage)[link]
+    u, ends = line_direction(motion, slide.line), (slide.line.through, slide.point)
+    w, w1, w2 = (between(kind, ends) for kind in (motion.position, motion.velocity, motion.acceleration))
+    turns = slide.line.on is not None
+    omega, alpha = (motion.angular_velocity[link], motion.angular_acceleration[link]) if turns else (0.0, 0.0)
+    f, e = dot(u, w), cross(u, w)
+    f1, e1 = dot(u, w1) + e * omega, cross(u, w1) - f * omega
+    f2 = dot(u, w2) + (cross(u, w1) + e1) * omega + e * alpha
+    return f, f1, f2, 2.0 * omega * f1
+
+
+def _of_slip(place: int, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
+    def read(motion: Any, link: str) -> Any:
+        with np.errstate(invalid="ignore"):
+            return said(motion, slip_of(motion, link)[place] + 0.0 * motion.phase, unit, order)
+
+    return Measure(name, name, symbol, words, unit, order, name, read)
+
+
+SLIP = (
+    _of_slip(0, "slip", "s", "slip", "{}", 0),
+    _of_slip(1, "slip_velocity", "v", "velocity of slip", "{}/s", 1),
+    _of_slip(2, "slip_acceleration", "a", "acceleration of slip", "{}/s²", 2),
+)
+"""Along the line of a link that moves: where what slides on it is, seen from the link."""
+CORIOLIS = _of_slip(3, "coriolis", "aᶜ", "Coriolis acceleration", "{}/s²", 2)
 
 LEVER = "lever"
 """The solved arms of the dyads' reactions, which a linkage without forces does not have."""

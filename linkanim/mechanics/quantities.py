@@ -24,9 +24,11 @@ from linkanim.mechanics.linkage import Body, Damper, Linkage, Pin, Spring, holdi
 from linkanim.mechanics.measures import (
     CENTRE,
     CENTRE_PATH,
+    CORIOLIS,
     DAMPER,
     PATH,
     POINT,
+    SLIP,
     SPRING,
     TURNING,
     Measure,
@@ -41,6 +43,7 @@ from linkanim.mechanics.measures import (
     rounding_of,
     said,
     size,
+    slips,
     transmission_angle,
     worst_transmission,
 )
@@ -271,10 +274,14 @@ def _quantities(
     labels = link_labels(linkage)
     for body in linkage.bodies:
         yield from _of_body(linkage, body, labels[body.name], called(body, names))
+    for link, slide in slips(linkage).items():
+        yield from _of_slip(link, slide.point, labels[link], called(linkage.body(link), names))
     for joint in linkage.joints:
         moves, name = not isinstance(joint, Pin), joint.name
         own, bent = POINT if moves or still else (), PATH if moves else ()
         yield from _of_point(own, bent, (name, name, name), ("joints", name))
+    for link, slide in slips(linkage).items():
+        yield _of_coriolis(link, slide.point)
     for body in linkage.bodies:
         if body.com is not None:
             called_ = body.name, f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
@@ -289,6 +296,25 @@ def _quantities(
             yield from _vector(_POLE, called_, ("bodies", body.name))
     yield from _of_whole(linkage)
     yield from _of_forces(linkage, names, carriers)
+
+
+def _slipping(measure: Measure, link: str, motion: Any) -> Any:
+    return measure.read(motion, link)
+
+
+def _of_slip(link: str, joint: str, label: str, words: str) -> Iterator[Quantity]:
+    """Yield how what slides on a moving link slips along it."""
+    for one in SLIP:
+        symbol, told = indexed(one.symbol, f"{joint}/{label}"), f"{words}: {one.words} of {joint}"
+        read, path = partial(_slipping, one, link), ("bodies", link, one.name)
+        yield Quantity(f"{link}.{one.name}", symbol, told, one.unit, one.order, read, path=path)
+
+
+def _of_coriolis(link: str, joint: str) -> Quantity:
+    """Return the Coriolis acceleration of what slides on a moving link."""
+    read, path = partial(_slipping, CORIOLIS, link), ("joints", joint, CORIOLIS.name)
+    symbol, words = indexed(CORIOLIS.symbol, joint), f"{joint}: {CORIOLIS.words}"
+    return Quantity(f"{joint}.coriolis", symbol, words, CORIOLIS.unit, CORIOLIS.order, read, path=path)
 
 
 def _pole(motion: Any, name: str) -> Any:
