@@ -405,11 +405,6 @@ class CaptionLine(Mode):
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"lesson_on": _on}
 
-    def typing(self, state: State) -> bool:
-        """Return that whatever is printed is typed."""
-        del state
-        return True
-
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the line in which the caption is typed."""
         del state

@@ -65,11 +65,6 @@ class Naming(Mode):
         "take_name": Rule(rules.nothing, take, taped=False),
     }
 
-    def typing(self, state: State) -> bool:
-        """Return that whatever is printed is typed."""
-        del state
-        return True
-
     @property
     def name(self) -> str:
         """The name that Enter takes."""

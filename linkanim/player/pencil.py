@@ -30,20 +30,7 @@ from linkanim.player.keys import (
     enter,
     on,
 )
-from linkanim.player.sketching import (
-    REFUSED,
-    before,
-    choose,
-    come,
-    follow,
-    keep,
-    left,
-    released,
-    row_of,
-    sketching,
-    take_back,
-    taken,
-)
+from linkanim.player.sketching import ACTIONS, Sketching, left, released, row_of, sketching, taken
 from linkanim.player.state import (
     DIAL,
     NEAR_HAND,
@@ -313,7 +300,7 @@ _DRAGS: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_piv
 
 
 @frozen
-class Pencil(PathSketch):
+class Pencil(Sketching, PathSketch):
     """The pencil, and what it has drawn."""
 
     keys = ModeKeys(
@@ -342,6 +329,7 @@ class Pencil(PathSketch):
         *(BarEntry("done", Action("keep"), 1), *LAST_BAR),
     )
     actions: ClassVar[Mapping[str, Rule]] = {
+        **ACTIONS,
         "pencil": Rule(rules.nothing, pencil),
         "own_trace": Rule(rules.nothing, own),
         "pen_down": Rule(rules.numbers(2), down),  # (x, y) in the scene's unit
@@ -349,40 +337,18 @@ class Pencil(PathSketch):
         "pen_up": Rule(rules.nothing, up),
         "pen_off": Rule(rules.nothing, off),
         "stroke": Rule(rules.pairs, stroke),  # 1 closed, 0 open; x, y of each point
-        "follow": Rule(rules.answer, follow),  # an answer's numbers
         "answers": Rule(rules.answers, answers_),  # on older tapes: as "cards", without sizes and angles
         "cards": Rule(rules.cards, cards),  # which one is shown; the numbers of each
         "way": Rule(rules.cards, way_),  # 0; the numbers of each answer along the front
         "dial": Rule(rules.share, turn_dial),  # from 0 to 1, the most compact
         "dial_on": Rule(rules.whole, dial_on),  # so many steps further
-        "answer": Rule(rules.whole, choose),  # its place in the row
         "cognate": Rule(rules.whole, cognate),  # its place among those that turn fully, from 0
         "take_point": Rule(rules.whole, take_point),  # its place on the stroke
         "take_pivot": Rule(rules.text, take_pivot),
         "lead": Rule(rules.numbers(2), lead),  # to (x, y) in the scene's unit
         "let_go": Rule(rules.nothing, let_go),
-        "keep": Rule(rules.nothing, keep),
-        "take_back": Rule(rules.nothing, take_back),
     }
     pointer = "pencil"
-
-    @property
-    def is_paper(self) -> bool:
-        """Whether there is nothing but the paper yet."""
-        return self.is_blank
-
-    def forbids(self, state: State, action: Action) -> str | None:
-        """Refuse edits of the scene, and another unit."""
-        del state
-        return "" if action.name in REFUSED else None
-
-    def ready_for(self, state: State, action: Action) -> State:
-        """Keep the answer, or leave it, for an action on a scene."""
-        return before(state, action)
-
-    def aged(self, state: State) -> State:
-        """Show the linkage that was worked out for this frame."""
-        return come(state)
 
     def closed(self, state: State) -> State:
         """Put the pencil down, and go back to the scene from before."""

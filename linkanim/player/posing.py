@@ -34,20 +34,7 @@ from linkanim.player.keys import (
     on,
     tabs,
 )
-from linkanim.player.sketching import (
-    REFUSED,
-    before,
-    choose,
-    come,
-    follow,
-    keep,
-    left,
-    released,
-    row_of,
-    sketching,
-    take_back,
-    taken,
-)
+from linkanim.player.sketching import ACTIONS, Sketching, left, released, row_of, sketching, taken
 from linkanim.player.state import (
     LARGEST_DIAL,
     PIVOTS,
@@ -467,7 +454,7 @@ def _enter(window: Outside, _: Value) -> Iterator[Action]:
 
 
 @frozen
-class Posing(PoseSketch):
+class Posing(Sketching, PoseSketch):
     """The poses that are set down."""
 
     keys = ModeKeys(
@@ -513,6 +500,7 @@ class Posing(PoseSketch):
         *(BarEntry("construction", Action("theory"), 4), BarEntry("done", Action("keep"), 1), *LAST_BAR),
     )
     actions: ClassVar[Mapping[str, Rule]] = {
+        **ACTIONS,
         "poses": Rule(rules.nothing, poses_),
         "set_poses": Rule(rules.triples, put),  # 1 with a slider, else 0; x, y, angle (rad) of each
         "set_pin": Rule(rules.place_of_sheet, pin),  # (x, y) in the scene's unit
@@ -520,13 +508,9 @@ class Posing(PoseSketch):
         "sliding": Rule(rules.nothing, sliding_),
         "theory": Rule(rules.nothing, curves_),
         "unmet": Rule(rules.text, unmet),  # why there is no linkage
-        "follow": Rule(rules.answer, follow),  # an answer's numbers
         "cards": Rule(rules.cards, cards),  # which one is shown; the numbers of each
         "dial": Rule(rules.share, dial_),  # from 0 to 1, the steepest
         "dial_on": Rule(rules.whole, dial_on),  # so many steps further
-        "answer": Rule(rules.whole, choose),  # its place in the row
-        "keep": Rule(rules.nothing, keep),
-        "take_back": Rule(rules.nothing, take_back),
         "hand_down": Rule(rules.hand, down),  # (x, y), how near counts as on it, the step of what is drawn
         "hand_to": Rule(rules.hand, along),
         "hand_up": Rule(rules.nothing, up),
@@ -537,27 +521,9 @@ class Posing(PoseSketch):
     meanings: ClassVar[Mapping[str, Resolver]] = {"aim": _aim, "enter": _enter}
     has_head = True
 
-    @property
-    def is_paper(self) -> bool:
-        """Whether there is nothing but the paper yet."""
-        return self.is_blank
-
     def look(self, look: Look) -> Look:
         """Return the look, without numbers."""
         return replace(look, hud=False)
-
-    def forbids(self, state: State, action: Action) -> str | None:
-        """Refuse edits of the scene, and another unit."""
-        del state
-        return "" if action.name in REFUSED else None
-
-    def ready_for(self, state: State, action: Action) -> State:
-        """Keep the answer, or leave it, for an action on a scene."""
-        return before(state, action)
-
-    def aged(self, state: State) -> State:
-        """Show the linkage that was worked out for this frame."""
-        return come(state)
 
     def closed(self, state: State) -> State:
         """Let go of what is held or chosen; else go back to the scene from before."""

@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from linkanim.picture.overlay import AnswerRow
+from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.edits import exchanged, followed
-from linkanim.player.state import POSED, PathSketch, PoseSketch, Sketch, State, with_effect, with_undo
+from linkanim.player.state import (
+    POSED,
+    Mode,
+    PathSketch,
+    PoseSketch,
+    Rule,
+    Sketch,
+    State,
+    with_effect,
+    with_undo,
+)
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
@@ -44,11 +56,6 @@ _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"
 """Actions that keep the answer first, and those that first go back to the scene before."""
 REFUSED = frozenset({"unit", "undo", "redo"})
 """Actions that are refused meanwhile: points keep their unit, and edits are the scene's."""
-
-
-def before(state: State, action: Action) -> State:
-    """Return the state in which an action on a scene is carried out: the answer is kept, or left."""
-    return keep(state, None) if action.name in _KEEPS else left(state) if action.name in _LEAVES else state
 
 
 def follow(state: State, numbers: tuple[float, ...]) -> State:
@@ -163,3 +170,36 @@ def row_of(state: State, sketch: Sketch, words: tuple[str, ...]) -> AnswerRow:
     names, still = tuple("" for _ in entries), state.clock.paused or sketch.held is not None
     theme = state.look.theme
     return AnswerRow(entries, names, words, sketch.chosen, sketch.unit, state.frame, theme, still=still)
+
+
+ACTIONS: Mapping[str, Rule] = {
+    "follow": Rule(rules.answer, follow),  # an answer's numbers
+    "answer": Rule(rules.whole, choose),  # its place in the row
+    "keep": Rule(rules.nothing, keep),
+    "take_back": Rule(rules.nothing, take_back),
+}
+"""The actions that the pencil and poses share."""
+
+
+class Sketching(Mode):
+    """What the pencil and poses share, while a sketch is on."""
+
+    @property
+    def is_paper(self) -> bool:
+        """Whether there is nothing but the paper yet."""
+        return isinstance(self, Sketch) and self.is_blank
+
+    def forbids(self, state: State, action: Action) -> str | None:
+        """Refuse edits of the scene, and another unit."""
+        del state
+        return "" if action.name in REFUSED else None
+
+    def ready_for(self, state: State, action: Action) -> State:
+        """Keep the answer for an action on a scene, or leave it."""
+        return (
+            keep(state, None) if action.name in _KEEPS else left(state) if action.name in _LEAVES else state
+        )
+
+    def aged(self, state: State) -> State:
+        """Show the linkage that was worked out for this frame."""
+        return come(state)

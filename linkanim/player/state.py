@@ -426,9 +426,9 @@ class Mode:
     pointer: ClassVar[str] = ""
 
     def typing(self, state: State) -> bool:
-        """Return whether something has been begun by typing."""
+        """Return whether something has been begun by typing; in a line or a dialog all print is typed."""
         del state
-        return False
+        return self.keys.alone
 
     @property
     def is_paper(self) -> bool:

@@ -283,11 +283,6 @@ class TakeDialog(Mode):
     meanings: ClassVar[Mapping[str, Resolver]] = {"taking": _opened, "take_start": _started}
     is_listed, leads = True, True
 
-    def typing(self, state: State) -> bool:
-        """Return that whatever is printed is typed."""
-        del state
-        return True
-
     @property
     def place(self) -> str:
         """Where the recording is to be written, without its ending; a folder alone gets the proposed name."""

@@ -84,7 +84,7 @@ def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(playe
     enter(player, mode)
     listed = commands(KEYS_OF["paused"]) if mode == "list" else []
     wanted = [one for one in listed if one[-1].name != "menu"] or expected(mode)
-    if mode in ("play", "list", "edit"):
+    if mode in ("play", "paused", "list", "edit"):
         wanted = [*wanted, *CONSTRUCTED]
     for opening in ("key", "mouse"):
         if opening == "key":
