@@ -180,6 +180,8 @@ math[display=block] { width: fit-content; max-width: 100%; margin: .35rem 0 .35r
 math .rows > mtr > mtd { padding: .22em 0; text-align: left; } math .rows > mtr { break-inside: avoid; }
 math .rows > mtr > mtd:first-child { text-align: right; }
 math .v { font-weight: bold; font-style: normal; } math .u { padding: 0; margin: 0; }
+math .lit { background: #ffd8a8; border-radius: 2px; }
+svg .lit path { fill: #d9480f; fill-opacity: 1; } svg [data-i], math [data-y] { cursor: pointer; }
 math .blank { border-bottom: 1px solid #57606a; }
 ul.given { columns: 2; list-style: none; padding: 0 0 0 1rem; margin: .35rem 0; }
 ul.given li { break-inside: avoid; }
@@ -366,8 +368,40 @@ def short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
 
 def _html_page(title: str, body: str) -> str:
     head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}{math_style()}</style>"
-    inside = f"<body>\n<main>\n{body}\n</main>\n</body>"
+    script = f"<script>{_LIGHTS}</script>\n" if " data-i=" in body else ""
+    inside = f"<body>\n<main>\n{body}\n</main>\n{script}</body>"
     return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
+
+
+_LIGHTS = r"""
+// A symbol lights the part of the figure that has its index, and a part its symbols: by mouse, touch or keys.
+(() => {
+  const none = /^(?:[bkψβℓπλ]|a\d)/, found = new Set();
+  const kinds = { r: /^[rR]/, w: /^[θωαhmPI]/, s: /^[sfgtST]/ };
+  const kind = text => Object.keys(kinds).find(one => kinds[one].test(text)) ?? 'j';
+  for (const e of document.querySelectorAll('math msub, math msubsup')) {
+    if (e.parentElement.closest('msub, msubsup')) continue;
+    const letter = e.children[0].textContent, index = kind(letter) + e.children[1].textContent;
+    const part = document.querySelector(`svg [data-i~="${CSS.escape(index)}"]`);
+    if (!part || none.test(letter + e.children[1].textContent)) continue;
+    e.dataset.y = index;
+    if (!found.has(e.textContent)) { found.add(e.textContent); e.tabIndex = 0; }
+  }
+  for (const e of document.querySelectorAll('svg [data-i]')) {
+    e.tabIndex = 0; e.setAttribute('role', 'img');
+    e.setAttribute('aria-label', e.querySelector('text')?.textContent ?? e.dataset.i.slice(1).split(' ')[0]);
+  }
+  const show = event => {
+    for (const e of document.querySelectorAll('.lit')) e.classList.remove('lit');
+    const at = event.target.closest?.('[data-y], [data-i]');
+    for (const index of (at?.dataset.y || at?.dataset.i || '').split(' ').filter(Boolean)) {
+      const i = CSS.escape(index), both = `[data-y="${i}"], svg [data-i~="${i}"]`;
+      for (const e of document.querySelectorAll(both)) e.classList.add('lit');
+    }
+  };
+  for (const kind of ['pointerover', 'pointerdown', 'focusin']) document.addEventListener(kind, show);
+})();
+"""
 
 
 def _html_words(text: str) -> str:

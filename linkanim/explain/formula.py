@@ -233,6 +233,7 @@ def along(angle: Formula) -> Components:
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "θ": "theta", "ω": "omega", "φ": "varphi",
     "ψ": "psi", "ξ": "xi", "η": "eta", "μ": "mu", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
+    "λ": "lambda",
 }  # fmt: skip
 _OUT_OF_LATEX = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
 _INDEX = re.compile(r"([^\W\d_]+|\W+|[^\W0-9])|([0-9]+)")
@@ -432,7 +433,7 @@ def _mathml_index(text: str) -> str:
         if digits and n and tokens[n - 1][0] != ",":
             found[-1] = f"<msub>{found[-1]}<mn>{digits}</mn></msub>"
         else:
-            found.append(f"<mn>{digits}</mn>" if digits else f"<mi mathvariant='normal'>{escape(word)}</mi>")
+            found.append(f"<mn>{digits}</mn>" if digits else f"<mtext>{escape(word)}</mtext>")
     return found[0] if len(found) == 1 else f"<mrow>{''.join(found)}</mrow>"
 
 
@@ -454,10 +455,10 @@ def _mathml_number(shown: str, degrees: bool) -> str:
 def _mathml_unit(unit: str) -> str:
     if unit in ("", "°"):
         return unit and "<mo class='u'>°</mo>"
-    return f"<mspace width='.17em'></mspace><mtext>{escape(unit)}</mtext>"
+    return f"<mspace width='.17em'/><mtext>{escape(unit)}</mtext>"
 
 
-_THIN = "<mspace width='.12em'></mspace>"
+_THIN = "<mspace width='.12em'/>"
 
 
 def _mathml_call(name: str, parts: Sequence[str]) -> str:
@@ -466,7 +467,7 @@ def _mathml_call(name: str, parts: Sequence[str]) -> str:
     return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo>{_THIN}<mrow>{parts[0]}</mrow></mrow>"
 
 
-_SIGNS = {sign: f"<mo>{sign.replace('-', '−')}</mo>" for sign in "·+-="} | {"": f"<mo>&#x2062;</mo>{_THIN}"}
+_SIGNS = {sign: f"<mo>{sign.replace('-', '−')}</mo>" for sign in "·+-="} | {"": f"<mo>\u2062</mo>{_THIN}"}
 
 MATHML = Notation(
     symbol=_mathml_symbol,

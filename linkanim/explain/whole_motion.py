@@ -352,7 +352,7 @@ class _WholeMotion:
         work, crank, rod = self.work, found.crank, found.rod
         work.say(
             "The slider turns back where crank and rod lie in one line, stretched and folded. "
-            f"{self._where_beside(found)}. Its two extreme positions s, the stroke H, and the angles α of "
+            f"{self._where_beside(found)}. Its two extreme positions s, the stroke H, and the angles λ of "
             "crank and rod to the guide there:"
         )
         beside = self._beside(found)
@@ -364,7 +364,7 @@ class _WholeMotion:
         work.let(Symbol("H"), ends[0] - ends[1], LENGTH)
         away = beside if beside.value >= 0 else -beside
         leans = [
-            work.let(Symbol("α", index), arcsin(away / reach), ANGLE)
+            work.let(Symbol("λ", index), arcsin(away / reach), ANGLE)
             for index, reach in (("1", rod + crank), ("2", rod - crank))
         ]
         self._ratio(_STRAIGHT + leans[1] - leans[0])

@@ -5,7 +5,7 @@ A program that shows it in another face sets each line as wide as ours, so that 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import count
 from xml.sax.saxutils import escape, quoteattr
 
@@ -32,12 +32,14 @@ def svg(
     title: str,
     words: str = "",
     wide: float | None = None,
+    indices: Mapping[str, str] | None = None,
 ) -> str:
     """Return a picture, `size` in pixels, as an SVG document; None leaves the background open.
 
     It is `wide` mm wide; without that, its size is in pixels.
     Its title, and the words that say what is seen in it, are read aloud. A group is a `<g>` whose id is its
-    name, numbered where a group before has it.
+    name, numbered where a group before has it; it has the `indices` of its name, of the symbols that are of
+    it, as `data-i`.
     """
     width, height = size
     body = [f"<title>{escape(title)}</title>", *([f"<desc>{escape(words)}</desc>"] if words else [])]
@@ -51,7 +53,9 @@ def svg(
         if not isinstance(item, Group):
             body += drawn([item])
         elif inside := drawn(flat([item])):
-            body += [f"<g id={quoteattr(_unused(item.name, ids))}>", *inside, "</g>"]
+            own = (indices or {}).get(item.name)
+            of = f" data-i={quoteattr(own)}" if own else ""
+            body += [f"<g id={quoteattr(_unused(item.name, ids))}{of}>", *inside, "</g>"]
     across, down = (f"{width}", f"{height}")
     if wide:
         across, down = f"{wide:g}mm", f"{wide * height / width:.2f}mm"

@@ -4,22 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
+from linkanim.explain.formula import Symbol
 from linkanim.explain.solution import Solution
+from linkanim.explain.steps import names_of
 from linkanim.frozen import NamedTuple
+from linkanim.mechanics.linkage import holding
+from linkanim.mechanics.measures import output_slider
+from linkanim.mechanics.quantities import link_labels
 from linkanim.paper.figure import Figured
 from linkanim.paper.svg import svg
 from linkanim.picture.chart import Pen, pen_for
+from linkanim.picture.figure import figure
 from linkanim.picture.fittings import ground_layers
-from linkanim.picture.items import Caption, Group, Halo, Item, grouped
+from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.placing import Alternatives, Obstacles, chosen, grounded
 from linkanim.picture.polygons import polygons_of
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import arrows
+from linkanim.picture.shapes import arrows, disc
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 
@@ -58,10 +65,72 @@ def vectors_svg(found: Solution) -> str:
     pins = [name for name in picture.figure.fixed if name in bodies or found.places[name] in ends]
     ground = Group("ground", ground_layers(picture.drawing.setting, pins))
     others = {*picture.figure.fixed} - {*pins}
-    links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0), others))
-    drawn = [ground, links, grouped("vectors", _drawn(found, picture))]
+    links = picture.drawing.faint_groups(found.request.scene.pose(found.phase, 0), others)
     title = f"Vector loops of {found.title}"
-    return svg(picture.size, picture.theme.background, drawn, title=title)
+    drawn = [ground, *links, *_drawn(found, picture)]
+    return svg(picture.size, picture.theme.background, drawn, title=title, indices=indices_of(found))
+
+
+_OF_INPUT = ("0", "m", "slow", "stretched", "folded", "back", "front", "s1", "s2", "f1", "f2")
+"""The indices of angles of the whole motion that are the input's."""
+
+
+def indices_of(found: Solution) -> dict[str, str]:
+    """Return the symbols of each group of the figure, with blanks between, as a kind and an index.
+
+    The kinds are r, a length; w, what belongs to a link that turns; s, a travel; j, what belongs to a joint.
+    Springs and dampers, which the figure of the loops lacks, have none.
+    """
+    linkage, names = found.request.scene.linkage, names_of(figure(found.request.scene))
+    labels = link_labels(linkage)
+    bars = [(start, joint.name) for joint in linkage.joints for start, _ in joint.bars]
+    of: dict[str, list[str]] = {}
+    for body in linkage.bodies:
+        if body.slider:
+            of[f"fitting-{body.slider}"] = [f"w{labels[body.name]}", f"s{names.slide(body.slider).sub}"]
+            continue
+        frame = holding(linkage.rigid_bodies, body.joints)
+        rigid = set(body.joints) | set(() if frame is None else linkage.rigid_bodies[frame])
+        others = (one for one in linkage.bodies if one.slider is None and set(one.joints) <= rigid)
+        own = [ends for ends in bars if {*ends} <= rigid]
+        of[f"body-{body.name}"] = [f"{kind}{labels[one.name]}" for one in others for kind in ("w", "jG")]
+        of[f"body-{body.name}"] += [f"w{names.angle(*ends)}" for ends in own]
+        of[f"body-{body.name}"] += [f"r{names.length(*ends)}" for ends in own]
+    for arrow in found.arrows:
+        letter, index = arrow.symbol.letter, arrow.symbol.sub
+        ends = [
+            [
+                name
+                for name, at in found.places.items()
+                if abs(at - end) < _SHORT * abs(arrow.end - arrow.begin)
+            ]
+            for end in (arrow.begin, arrow.end)
+        ]
+        pairs = [pair for one, other in product(*ends) for pair in ((one, other), (other, one))]
+        of[_vector(arrow.symbol)] = [f"{'r' if letter == 'R' else 'j' if letter == 'E' else 's'}{index}"]
+        if letter == "R":
+            angles = [*(names.angle(*pair) for pair in pairs), *("".join(pair) for pair in pairs)]
+            of[_vector(arrow.symbol)] += [f"w{angle}" for angle in angles]
+            of[_vector(arrow.symbol)] += ["w1"] * (index == "1")
+    drawn = {arrow.symbol.sub for arrow in found.arrows if arrow.symbol.letter == "R"}
+    for joint in linkage.joints:
+        legs = (f"r{index}" for index in names.legs.get(joint.name, ()))
+        more = (f"r{n}" for ends, n in names.lengths.items() if joint.name in ends and n not in drawn)
+        of[_mark(joint.name)] = [f"j{joint.name}", *legs, *more]
+    driven, output = linkage.driven.body, output_slider(linkage)
+    moved = of.get(f"body-{driven.name}" if driven else "", of[_mark(linkage.drive.joint)])
+    moved += [*(f"w{index}" for index in _OF_INPUT), "sin", "jin"]
+    if output is not None:
+        of[f"fitting-{output.slider}"] += [f"s{end}" for end in ("min", "max", "back", "front")]
+    return {group: " ".join(dict.fromkeys(own)) for group, own in of.items()}
+
+
+def _vector(symbol: Symbol) -> str:
+    return f"vector-{symbol.letter}{symbol.sub}"
+
+
+def _mark(joint: str) -> str:
+    return f"mark-{joint}"
 
 
 def _picture(found: Solution) -> Picture:
@@ -85,26 +154,35 @@ def _pixel(picture: Picture, at: complex) -> complex:
     return picture.view.place((at.real, at.imag))
 
 
-def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
-    """Yield the vectors, and the names of vectors and joints, placed where they cover nothing."""
+def _drawn(found: Solution, picture: Picture) -> Iterator[Group]:
+    """Yield the marks of joints and the vectors, each with its name, placed where it covers nothing."""
     pen, theme = pen_for(picture.layout, picture.type, picture.theme), picture.theme
     ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in found.arrows]
     long = [way for way in ways if abs(way[2] - way[1]) > _SHORT * picture.size[0]]
+    bodies = {name for body in found.request.scene.linkage.bodies for name in body.joints}
     joints = {name: _pixel(picture, at) for name, at in found.places.items()}
     ends = [end for _, *both in long for end in both]
-    touched = {name: at for name, at in joints.items() if any(abs(at - end) < 1 for end in ends)}
+    shown = {
+        name: at for name, at in joints.items() if name in bodies or any(abs(at - end) < 1 for end in ends)
+    }
     names = [
-        NamedPlace(subscripted(name), around_joint(at, pen.text), theme.ink) for name, at in touched.items()
+        NamedPlace(subscripted(name), around_joint(at, pen.text), theme.ink) for name, at in shown.items()
+    ]
+    groups = [
+        Group(_mark(name), [Layer(theme.ink, [at + disc(1.6 * pen.line)])]) for name, at in shown.items()
     ]
     for one, begin, end in long:
         colour = theme.velocity if one.symbol.letter == "R" else theme.acceleration
-        yield Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
+        arrow = Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
+        groups.append(Group(_vector(one.symbol), [arrow]))
         text = f"{one.symbol.letter}_{{{one.symbol.sub}}}"
         names.append(NamedPlace(text, beside(begin, end, pen.text), colour))
     whole = Rect(0, 0, *picture.size)
     ground = grounded(whole, lines=[(begin, end) for _, begin, end in long], half=1.5 * pen.line)
-    spots = np.array([[*touched.values()]], np.complex128).reshape(1, -1)
-    yield from captions(names, ground._replace(discs=spots, radii=np.full(len(touched), 4 * pen.line)), pen)
+    spots = np.array([[*shown.values()]], np.complex128).reshape(1, -1)
+    placed = captions(names, ground._replace(discs=spots, radii=np.full(len(shown), 4 * pen.line)), pen)
+    for group, words in zip(groups, placed, strict=True):
+        yield group._replace(captions=[words])
 
 
 def captions(names: list[NamedPlace], ground: Obstacles, pen: Pen) -> Iterator[Caption]:

@@ -118,10 +118,18 @@ class Drawing:
 
     def faint(self, pose: Pose, without: Collection[str] = ()) -> list[Layer]:
         """Return a pose's bodies and pins in faint colours, `without` the pins of some joints."""
+        return [layer for group in self.faint_groups(pose, without) for layer in group.layers]
+
+    def faint_groups(self, pose: Pose, without: Collection[str] = ()) -> Iterator[Group]:
+        """Yield each of a pose's bodies and pins in faint colours, `without` the pins of some joints."""
         back, left_out = self.setting.theme.background, {f"joint-{name}" for name in without}
-        groups = (group for group in self._pinned(self.places(pose)) if group.name not in left_out)
-        layers = (layer for group in groups for layer in group.layers)
-        return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
+        for group in self._pinned(self.places(pose)):
+            if group.name not in left_out:
+                pale = (
+                    Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha)
+                    for layer in group.layers
+                )
+                yield Group(group.name, [*pale])
 
     def standing(self) -> Iterator[Group]:
         """Yield what else stands still: the ground, its line, the whole curves and dead centres."""

@@ -143,8 +143,8 @@ def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     page = Parts(text)
     assert page.loaded == []
     assert not page.all("script")
-    # the figure, the loops, and the pose and the polygons at two angles
-    assert len(page.all("svg")) == 2 + 2 * 2 + len(list(press.glob("chart-*.svg")))
+    # the figure, the loops, the pose at two angles, and there the polygons at three speeds
+    assert len(page.all("svg")) == 2 + 2 * (1 + 3) + len(list(press.glob("chart-*.svg")))
     assert "@page { size: A4;" in text
     # a font comes with the page
     assert not re.search(r"url\((?!data:font)|@import|https?://(?!www\.w3\.org)", text)
@@ -241,14 +241,14 @@ def test_its_figure_names_the_dimensions_and_has_no_other_words(press: Path) -> 
 def test_its_loops_name_each_vector_and_joint_once(press: Path) -> None:
     root = ElementTree.parse(press / "loops.svg").getroot()
     names = ["".join(text.itertext()) for text in root.iter() if text.tag.endswith("text")]
-    assert names == ["O2", "O7", "A", "D", "B", "C", "R2", "R3", "R1", "R7", "R6", "R4", "S5"]
+    assert names == ["O2", "O7", "A", "D", "B", "C", "H", "R2", "R3", "R1", "R7", "R6", "R4", "S5"]
 
 
 @pytest.mark.parametrize(("name", "axis", "room"), [("press", 1, 480), ("pumpjack", 0, 520)])
 def test_loops_fill_their_figure_in_height_or_width(name: str, axis: int, room: int) -> None:
     root = ElementTree.fromstring(vectors_svg(solution(PoseRequest(load(name), "phase", 1.0, 1.0))))
-    vectors = next(group for group in root.iter() if group.get("id") == "vectors")
-    drawn = [path.get("d") or "" for path in vectors if path.tag.endswith("path")]
+    vectors = [group for group in root.iter() if (group.get("id") or "").startswith("vector-")]
+    drawn = [path.get("d") or "" for group in vectors for path in group if path.tag.endswith("path")]
     places = [float(place[axis]) for one in drawn for place in re.findall(r"[ML]([\d.]+) ([\d.]+)", one)]
     assert max(places) - min(places) == pytest.approx(0.82 * room, rel=0.03)
 
@@ -689,7 +689,14 @@ def test_its_loops_stand_on_the_pins_of_links_alone(press: Path) -> None:
     root = ElementTree.parse(press / "loops.svg").getroot()
     box = [float(number) for number in (root.get("viewBox") or "").split()]
     for group in root.iter():
-        if group.get("id") in ("ground", "links", "vectors"):
+        if (group.get("id") or "").partition("-")[0] in (
+            "ground",
+            "body",
+            "joint",
+            "fitting",
+            "vector",
+            "mark",
+        ):
             drawn = " ".join(path.get("d") or "" for path in group if path.tag.endswith("path"))
             places = [tuple(map(float, place)) for place in re.findall(r"[ML]([-\d.]+) ([-\d.]+)", drawn)]
             assert places
