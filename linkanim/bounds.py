@@ -30,7 +30,7 @@ MOST_ASKED = 60_000
 """Questions of a round times the square of a scene's joints: a figure keeps their names off each other."""
 MOST_VERSIONS = 500
 """Versions of an exercise times a scene's joints: for each, lengths are sought and a solution is made."""
-MOST_CHARTED = 1_000
+MOST_CHARTED = 1_200
 """Quantities of a report with `--all`, times its speeds."""
 MOST_LISTED = 36
 """Speeds or angles that are given in a list: each has curves, or tables and figures, of its own."""

@@ -39,11 +39,11 @@ REFUSED = {
     ),
     "a report of all quantities": (
         "report chain.toml --all -o report",
-        "chain has 3,004 quantities, and a report holds 1,000",
+        "chain has 3,004 quantities, and a report holds 1,200",
     ),
     "a report of all quantities at several speeds": (
         "report kite --all -o report --speeds " + ",".join(f"{n}rpm" for n in range(1, 37)),
-        "quantities at 36 speeds, and a report holds 1,000",
+        "quantities at 36 speeds, and a report holds 1,200",
     ),
     "a report at many speeds": (
         "report chain.toml -o report --speeds " + ",".join(f"{n}rpm" for n in range(1, 38)),

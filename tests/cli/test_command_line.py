@@ -24,7 +24,7 @@ DEFAULTS: list[tuple[list[str], dict[str, Any]]] = [
     ),
     (["draw", "press"], {"trace": True, "theme": "light", "background": True, "material": "flat"}),
     (["solve", "press"], {}),
-    (["info", "press"], {}),
+    (["info", "press"], {"fluctuation": 0.02}),
     (["scenes"], {}),
     (["check"], {}),
     (["gallery"], {"into": Path("recordings")}),
