@@ -4,8 +4,8 @@
 or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` poses into linkages whose
 coupler passes them, `function` a function into linkages that generate it, `quick_return` a time ratio
 into linkages that have it, `make` a scene into parts to cut and pin together; `solve_many` solves a
-scene with many lengths in one call. Everything is imported when first asked for: `import linkanim` alone
-brings in neither a window nor an encoder.
+scene with many lengths in one call, `tolerance` says how far it is off when its lengths are. Everything is
+imported when first asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
 The rooms, from the ground up. Each imports only from those before it; its docstring lists its modules in
 the order in which they are read:
@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from linkanim.picture.look import Look
     from linkanim.recorder.recording import record
     from linkanim.scenes import load, names
+    from linkanim.scenes.deviation import tolerance
     from linkanim.scenes.many import solve_many
     from linkanim.scenes.scene import Scene
     from linkanim.synthesis.generation import function
@@ -76,6 +77,7 @@ __all__ = [
     "quick_return",
     "record",
     "solve_many",
+    "tolerance",
 ]
 
 _HOME = {
@@ -91,6 +93,7 @@ _HOME = {
     "quick_return": "linkanim.synthesis.quick_returns",
     "record": "linkanim.recorder.recording",
     "solve_many": "linkanim.scenes.many",
+    "tolerance": "linkanim.scenes.deviation",
 }
 
 

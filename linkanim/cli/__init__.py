@@ -9,6 +9,7 @@ From the ground up; a module imports from those before it only:
     letters          which letters of what was written no font has
     progress         a bar that says how far long work is
     answers          answers of a synthesis, as files and as a table
+    tolerances       how far a scene may be off, as tables, an object and a chart
     command_table    every command: what it does, what it takes, which file does its work
     commands         a command a file: what it does once its options are read
 """

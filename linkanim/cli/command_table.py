@@ -206,6 +206,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "print the class, input range, toggles, change points, transmission angle and stroke",
         "linkanim info crank-rocker",
         "linkanim info my-linkage.toml --json",
+        'linkanim info crank-rocker --tolerance "0.1 mm" --chart off.svg',
     ),
     "check": (
         "name every problem of scene files, with its line",

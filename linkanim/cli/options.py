@@ -677,6 +677,14 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "how much the speed may change, as a share of its mean, with the flywheel (default: 0.02)",
             0.02,
         ),
+        _value(
+            "--tolerance LENGTH",
+            str,
+            'say how far points, output and stroke may be off when each length is, as "0.1 mm"',
+        ),
+        _value(
+            "--chart OFF", Path, "draw how far, over a period, as SVG, PNG, PDF or CSV (with --tolerance)"
+        ),
         _flag("--json", "print one object; angles in radians, times in seconds"),
     ),
     "check": (

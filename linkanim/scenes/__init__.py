@@ -15,6 +15,7 @@ From the ground up; a module imports from those before it only:
     editing    a scene with other dimensions, unit, assembly, input
     closures   every way in which a scene can be put together
     many       a scene with many lengths, solved in one call
+    deviation  how far points, output and stroke are off when lengths are
 """
 
 from linkanim.scenes.files import chapter_of, chapters, load, names, title_of, titles

@@ -152,6 +152,14 @@ def _number(scene: Scene, name: str) -> Number:
     )
 
 
+def solved_together(scene: Scene, names: Sequence[str]) -> bool:
+    """Return whether linkages with nearly these values of their lengths are solved many at a time."""
+    keys = tuple(named_lengths(scene)[name].key for name in names)
+    values, form = {one.key: one.value for one in dimensions(scene)}, _form(scene, keys)
+    own = [np.array([float(values[key])]) for key in keys]
+    return bool(own) and form.uniform and not form.solved(own, np.zeros(1), (1.0, 0.0), 0)[2].any()
+
+
 def named_lengths(scene: Scene) -> Mapping[str, Number]:
     """Map what a length may be called to its number in the scene's document; it is cached."""
     kept: dict[str, Any] = vars(scene)

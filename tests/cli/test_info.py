@@ -15,6 +15,7 @@ from linkanim.cli import main
 from linkanim.scenes import chapter_of, chapters
 from linkanim.scenes.editing import other_return
 from linkanim.scenes.toml import save
+from linkanim.units import significant
 
 KEYS = {
     "class",
@@ -213,3 +214,42 @@ def test_what_it_tells_has_true_minus_signs(name: str, capsys: pytest.CaptureFix
     printed = capsys.readouterr().out
     assert not re.search(r"(?<![\w])-\d", printed)
     assert name != "watt-line" or "swings −69.2°…32.33°" in printed
+
+
+def test_a_tolerance_is_a_table_an_object_and_a_chart(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["info", "slider-crank", "--tolerance", "0.1 mm", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["tolerance"]
+    assert found["by"] == 0.1
+    stroke = found["quantities"][-1]
+    assert (stroke["of"], stroke["most_by"], stroke["worst_phase"]) == ("stroke", "crank", None)
+    for chart in ("off.svg", "off.csv"):
+        assert main(["info", "slider-crank", "--tolerance", "0.01 cm", "--chart", chart]) == 0
+        printed = capsys.readouterr().out
+        assert "each of 5 lengths off by 0.1 mm at the most" in printed
+        assert re.search(rf"^stroke +{significant(stroke['worst'], 3)} mm +- ", printed, re.M)
+    head, *rows = (tmp_path / "off.csv").read_text().splitlines()
+    assert head == "phase_deg,all,crank,rod,offset,coupler_point.0,coupler_point.1"
+    worst = max(float(row.split(",")[1]) for row in rows)
+    assert worst == pytest.approx(found["quantities"][0]["worst"], rel=1e-9)
+    assert "How far P may be off" in (tmp_path / "off.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--tolerance", "0"], "give a length above zero"),
+        (["--tolerance", "1 rpm"], "rpm"),
+        (["--chart", "off.svg"], "say by how much each length is"),
+        (["--tolerance", "0.1 mm", "--chart", "off.gif"], "off.gif"),
+    ],
+)
+def test_a_tolerance_that_cannot_be_is_one_sentence(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["info", "slider-crank", *words]) == 2
+    printed = capsys.readouterr().err
+    assert said in printed
+    assert printed.count("\n") == 1

@@ -7,6 +7,7 @@ from cmath import phase
 from collections.abc import Iterator
 from math import degrees
 
+from linkanim.cli import tolerances
 from linkanim.export import json_text
 from linkanim.mechanics.balance import Counterweight, Shaking, balanced, counterweights, flywheel, shaking
 from linkanim.scenes import load
@@ -25,10 +26,17 @@ _CALLED = {"class": "class_name", "links": "link_names"}
 def run(options: Namespace) -> None:
     """Print the scene's class, limits and what follows from them, in words or as one JSON object."""
     scene = load(options.scene)
+    found = tolerances.asked(scene, options)
     if options.json:
-        print(json_text(as_object(scene) | evened(scene, options.fluctuation), indent=2))
+        facts = as_object(scene) | evened(scene, options.fluctuation)
+        facts |= {} if found is None else {"tolerance": tolerances.object_of(found)}
+        print(json_text(facts, indent=2))
     else:
         print(as_words(scene, options.fluctuation))
+        if found is not None:
+            print(f"\n{tolerances.table_of(found)}")
+    if found is not None and options.chart is not None:
+        tolerances.draw(found, options.chart)
 
 
 def as_words(scene: Scene, fluctuation: float) -> str:

@@ -1,0 +1,121 @@
+"""How far a quantity may be off over a period as a chart: all lengths together, and each alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+import pygame
+
+from linkanim.export import csv_head, csv_rows
+from linkanim.frozen import frozen
+from linkanim.paper.illustration import page_pen, page_surface
+from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, plot_area, x_title
+from linkanim.picture.items import Caption, Group, Item, grouped
+from linkanim.picture.look import ThemeName
+from linkanim.picture.purpose import USUAL_SIZE
+from linkanim.picture.quantities import linear
+from linkanim.picture.raster import Colour
+from linkanim.picture.view import Rect
+from linkanim.scenes.deviation import Off, Tolerance
+from linkanim.units import significant
+
+_NAMED = 4
+"""The number of lengths that are drawn alone: those that matter most."""
+
+
+@frozen
+class ToleranceChart:
+    """A chart of how far the first quantity of a scene may be off, over a period; `size` is in pixels."""
+
+    shown: Tolerance
+    size: tuple[int, int] = USUAL_SIZE
+    theme: ThemeName = "light"
+
+    @cached_property
+    def pen(self) -> Pen:
+        """What it is drawn with."""
+        return page_pen(self.size, self.theme)
+
+    @property
+    def background(self) -> Colour:
+        """The colour under everything."""
+        return self.pen.theme.background
+
+    @property
+    def off(self) -> Off:
+        """The quantity that is shown."""
+        return self.shown.quantities[0]
+
+    @property
+    def unit(self) -> str:
+        """The unit of what is shown."""
+        return "deg" if self.off.is_angle else self.shown.scene.length_unit
+
+    @property
+    def title(self) -> str:
+        """What it shows, in words."""
+        scene, off = self.shown.scene, self.off
+        by = f"{significant(self.shown.by, 4)} {scene.length_unit}"
+        return f"How far {off.name} may be off, each length by {by}: {scene.title}"
+
+    @property
+    def words(self) -> str:
+        """What is seen in it, in a paragraph."""
+        off, phase = self.off, math.degrees(self.off.worst_phase or 0.0)
+        said = f"At most {self._said(off.worst)}, at a phase of {significant(phase, 3)}°, to first order"
+        drawn = f"; 95 in 100 linkages stay within {self._said(off.likely)}" if off.likely > 0 else ""
+        return f"{said}{drawn}. {self.shown.most(off)} matters most: {self._said(float(off.by.max()))}."
+
+    def _said(self, value: float) -> str:
+        return f"{significant(self._scale * value, 3)} {self.unit}"
+
+    @property
+    def _scale(self) -> float:
+        """What turns values into the unit shown."""
+        return 180 / math.pi if self.off.is_angle else 1.0
+
+    def csv(self) -> str:
+        """Return the curves as a table: the phase in degrees, all lengths together, each alone."""
+        names = ["phase_deg", "all", *self.shown.lengths]
+        return csv_head(names) + csv_rows([np.degrees(self.off.phases), self.off.bound, *self.off.alone])
+
+    def surface(self) -> pygame.Surface:
+        """Return the chart drawn."""
+        return page_surface(self.size, self.background, self.groups(), self.pen.type)
+
+    def groups(self) -> tuple[Group, ...]:
+        """Return everything on the page, words over shapes."""
+        return (grouped("chart", self.items()),)
+
+    def items(self) -> Iterator[Item]:
+        """Yield everything on the page, back to front."""
+        pen, theme, off = self.pen, self.pen.theme, self.off
+        whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
+        yield Caption(self.title, (whole.x, whole.y), pen.text, theme.ink, strong=True)
+        below = whole._replace(y=whole.y + 1.4 * pen.text, height=whole.height - 1.4 * pen.text)
+        phases = np.append(np.degrees(off.phases), math.degrees(self.shown.scene.period))
+        bound = self._scale * np.append(off.bound, off.bound[0])
+        alone = self._scale * np.column_stack([off.alone, off.alone[:, 0]])
+        y_axis = linear(0.0, 1.12 * float(bound.max()), most=7)
+        area = plot_area(below, y_axis, pen, foot=True)
+        plot = Plot(area, linear(0.0, float(phases[-1]), most=9), y_axis)
+        yield from axes(plot, pen)
+        legend = (
+            f"in {self.unit}; bold: all lengths together; dots: 95 in 100, and the most of 10,000 linkages"
+        )
+        yield Caption(legend, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
+        yield x_title(plot, "phase in deg", pen)
+        for n in np.argsort(-off.by)[:_NAMED]:
+            yield curve_layer(plot, phases, alone[n], theme.acceleration, 0.8 * pen.line)
+            at = complex(plot.place(phases[alone[n].argmax()], float(alone[n].max())))
+            words = self.shown.lengths[n]
+            half = 0.5 * pen.type.width(words, pen.small)
+            middle = min(max(at.real, area.x + half), area.right - half)
+            yield Caption(words, (middle, at.imag - 1.5 * pen.small), pen.small, theme.ink, "centre")
+        yield curve_layer(plot, phases, bound, theme.velocity, 1.6 * pen.line)
+        where = math.degrees(off.worst_phase or 0.0)
+        drawn = [complex(plot.place(where, self._scale * one)) for one in (off.likely, off.greatest)]
+        yield from dot(theme.ink, pen).at([one for one in drawn if math.isfinite(one.imag)])
