@@ -93,11 +93,10 @@ def solve_many(
     check_derivatives(derivatives)
     chosen = [_number(scene, name) for name in lengths]
     given = [given_numbers(name, of, "solve_many") for name, of in (*lengths.items(), ("phase", phase))]
-    try:
-        (count,) = np.broadcast_shapes((1,), *(one.shape for one in given))
-    except ValueError:
+    count = max(one.size for one in given)
+    if any(one.ndim > 1 or one.size not in (1, count) for one in given) or not count:
         told = ", ".join(f"{name} {one.shape}" for name, one in zip((*lengths, "phase"), given, strict=True))
-        raise BadInput(f"solve_many({told}): give each N numbers, or one for all") from None
+        raise BadInput(f"solve_many({told}): give each N numbers, or one for all")
     *rows, phases = (one if one.shape == (count,) else np.repeat(one.ravel(), count) for one in given)
     scene.check_turns("phase", phases)
     w, a = scene.linkage.drive.speed if speed is None else float(speed), float(acceleration)
@@ -110,7 +109,7 @@ def solve_many(
     if places is None:
         places = _layout_of(pose(scene, 0.0), derivatives)
         results = np.full((len(places.outputs), count), np.nan)
-    for n in np.flatnonzero(left):
+    for n in np.flatnonzero(left) if left.any() else ():
         results[:, n] = np.nan
         try:
             one = with_dimensions(scene, {k.key: float(row[n]) for k, row in zip(chosen, rows, strict=True)})
