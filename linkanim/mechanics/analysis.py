@@ -805,6 +805,7 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     turning = (info.link_names[name] for name in info.turning_links)
     yield "class", info.class_name
     yield "links, joints", f"{links}, {joints}; mobility {mobility}"
+    yield "solved together", _together(info)
     yield "Grashof", info.grashof
     yield "input", info.input_words
     start = info.unreached_start
@@ -843,6 +844,12 @@ def _worst(info: Info, found: Transmission) -> str:
         where = "0°" if info.full_turn and told == "360" else f"{typeset(told)}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
     return f"μ ≥ {least}, {symbol} = {where}"
+
+
+def _together(info: Info) -> str | None:
+    """Return the links that can only be solved together; None of a chain of dyads."""
+    group = group_of(info.mechanism.linkage)
+    return None if group is None else ", ".join(member.name for member in group.free)
 
 
 def _returns(info: Info) -> str | None:

@@ -128,6 +128,8 @@ def test_a_double_butterfly_turns_fully_as_published() -> None:
 def test_its_class_is_the_textbooks(document: Mapping[str, Any], words: str, links: int, joints: int) -> None:
     info = read(document).info
     assert (info.class_name, *info.counts) == (words, links, joints, 1)
+    together = dict(info.lines)["solved together"].split(", ")
+    assert together == [name for name in document["links"] if name not in ("ground", "FG", "ACD")]
 
 
 TWO_PINS: dict[str, Any] = {
