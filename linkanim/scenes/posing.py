@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from linkanim.errors import SceneError
-from linkanim.mechanics.linkage import RPP, Cylinder, DrivenSlider, Slide, Travel
+from linkanim.mechanics.linkage import Slide
 from linkanim.scenes.file_form import GROUND, SHORTHANDS
 from linkanim.scenes.links import in_degrees
 from linkanim.scenes.scene import Scene
@@ -39,7 +39,7 @@ class _PointForm:
     def __init__(self, scene: Scene) -> None:
         self.scene, self.linkage = scene, scene.linkage
         drive = scene.linkage.drive
-        turns = drive.coordinate.is_angle and not isinstance(drive.actuator, Cylinder)
+        turns = drive.coordinate.is_angle and not drive.actuator.stated_lengths
         at = scene.solve(angle=drive.start, derivatives=0) if turns else None
         if at is None or not math.isfinite(float(at.phase)):
             at = scene.solve(phase=math.pi / 3, derivatives=0)
@@ -90,7 +90,7 @@ class _PointForm:
                 yield block, {"link": block, **self._line(first)}
             else:
                 yield f"pin {first.point}", {"point": first.point, **self._line(first)}
-            for slide in across if isinstance(joint, RPP) else ():
+            for slide in (one for one in across if one.start == joint.name):
                 angle = {"angle": self._line(joint.slides[0], slide.line.angle)["angle"]}
                 yield f"pin {slide.point}", {"point": slide.point, "on": self.block(joint.name), **angle}
 
@@ -127,8 +127,8 @@ class _PointForm:
         drive, stated = self.linkage.drive, dict(self.scene.document.get("drive", {}))
         kept = {key: stated[key] for key in ("speed", "returns") if key in stated}
         driven = self.linkage.driven
-        if isinstance(driven.joint, DrivenSlider) and isinstance(drive.actuator, Travel):
-            ends = {"from": drive.actuator.first, "to": drive.actuator.last}
+        if not drive.coordinate.is_angle:
+            ends = dict(zip(("from", "to"), drive.actuator.stated_lengths, strict=True))
             return {"slide": self.block(driven.joint.name), **ends, **kept}
         cylinder = {"cylinder": _without_joint(stated["cylinder"])} if "cylinder" in stated else {}
         links = [self.link_of(pin) for pin in (driven.pivot,)] + [

@@ -179,6 +179,8 @@ COUNT = 16
 """The coefficients of a piece."""
 _LAST_BIT = 66
 """The last two coefficients of a piece are below this power of a half, in lengths of the system."""
+_BEYOND = 3.0
+"""A point that is so many times as far from one point as another is has coordinates of its own."""
 _LONG = 5
 """Pieces halved no more often are not short."""
 _FINEST = 16
@@ -236,6 +238,8 @@ def carriers(
             second = next((name for name in others if member.place(name) != start), "")
             for name in [name for name in member.points if second and name in waiting]:
                 share = (member.place(name) - start) / (member.place(second) - start)
+                if abs(share) > _BEYOND:
+                    continue
                 derived[name] = (first, second), share
                 known.append(name)
                 waiting.remove(name)
