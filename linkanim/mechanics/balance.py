@@ -23,11 +23,10 @@ from linkanim.mechanics.linkage import RRR, Body, Crank, Linkage, Pin, holding
 from linkanim.mechanics.motion import mechanism
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import in_blocks
+from linkanim.mechanics.tolerances import NO_SHARE
 
 _FINER = 8
 """How many times as closely as it is sampled the stored work is looked at for its extremes."""
-_NONE = 1e-12
-"""A counterweight of less than this share of the coupler's moment is none."""
 
 
 class Counterweight(NamedTuple):
@@ -81,7 +80,7 @@ def counterweights(linkage: Linkage) -> tuple[Counterweight, ...] | None:
         (last, names[2], r4, needed[1]),
     ):
         lacking = moment - _moment(linkage, body, pivot)
-        if abs(lacking) > _NONE * (b3.mass or 0.0) * length:
+        if abs(lacking) > NO_SHARE * (b3.mass or 0.0) * length:
             place = 0.5 * length * lacking / abs(lacking)
             weights.append(Counterweight(body.name, abs(lacking) / (0.5 * length), complex(place)))
     return tuple(weights)

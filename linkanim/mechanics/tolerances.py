@@ -147,6 +147,8 @@ SLOW = 1 / 16
 """Rates have fewer digits of what moves by less, in extents of the linkage for each radian of the input."""
 IDLE = 10.0
 """Power, or a moment, of no more than this many times its rounding errors is none."""
+NO_SHARE = 1e-12
+"""A counterweight of less than this share of the coupler's moment is none."""
 LEVEL = 1e-9
 """Share of a quantity's greatest size; a quantity that changes by less stands still."""
 UNEVEN = 0.1
