@@ -6,7 +6,6 @@ one is a single action, which has the whole step in it, so that a tape needs no 
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Iterator, Mapping
@@ -67,6 +66,8 @@ class LessonStep:
 
     def text(self, number: int, count: int) -> str:
         """Return the step, the `number`-th of `count`, as the value of the action that shows it."""
+        import json  # imported here, so that the first frame does not wait for it
+
         scene = {"name": self.scene.name, "document": self.scene.document}
         values: dict[str, Any] = {
             "step": [number, count],
@@ -262,6 +263,8 @@ def _constructed(scene: Scene, steps: int) -> dict[str, Any]:
 
 def _toml(value: object) -> str:
     """Return a value as TOML writes it, a table on one line."""
+    import json  # imported here, so that the first frame does not wait for it
+
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{key} = {_toml(one)}' for key, one in value.items())} }}"
     if isinstance(value, list):
