@@ -284,6 +284,7 @@ PRINTED: Mapping[str, list[list[str]]] = {
     "quick-return": [["--stroke", "80", "--ratio", "1.4"], ["--swing", "60 deg", "--ratio", "1.25"]],
     "quiz": [["press", "-n", "1"]],
     "make": [["crank-rocker"]],
+    "closures": [["kite"]],
     "check": [["driven.toml"]],
 }
 UNSEEN = {

@@ -208,16 +208,16 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim info my-linkage.toml --json",
         'linkanim info crank-rocker --tolerance "0.1 mm" --chart off.svg',
     ),
+    "closures": (
+        "find all ways in which a linkage's lengths can be put together",
+        "linkanim closures klann",
+        "linkanim closures my-linkage.toml -o closures.gif",
+    ),
     "check": (
         "name every problem of scene files, with its line",
         "linkanim check my-linkage.toml",
         "linkanim check *.toml --json",
         "linkanim check --schema",
-    ),
-    "closures": (
-        "find every way in which a linkage can be put together",
-        "linkanim closures klann",
-        "linkanim closures crank-rocker -o closures.png",
     ),
     "convert": (
         "write a scene, or a linkage of another program, by its points and links",

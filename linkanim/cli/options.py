@@ -694,8 +694,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
     "closures": (
         _SCENE,
+        _output("write OUT.gif, in which all run, OUT.png, or a scene file for each, OUT.toml"),
         _flag("--json", "print a list with an object for each closure; angles in radians"),
-        _output("draw them on a sheet, OUT.png, or running, OUT.gif"),
     ),
     "convert": (
         _value(

@@ -75,6 +75,8 @@ class LessonStep:
             "look": stored.written_look(self.look),
         }
         values |= {"phase": self.phase, "running": self.running, "construction": self.construction}
+        import json
+
         return json.dumps(values, ensure_ascii=False)
 
 
@@ -269,6 +271,8 @@ def _toml(value: object) -> str:
         return f"{{ {', '.join(f'{key} = {_toml(one)}' for key, one in value.items())} }}"
     if isinstance(value, list):
         return f"[{', '.join(map(_toml, value))}]"
+    import json
+
     return json.dumps(value, ensure_ascii=False)
 
 

@@ -10,4 +10,5 @@ From the ground up; a module imports from those before it only:
     tape_frames  a tape's states as frames; `record_tape`
     lessons      a lesson as one file, or as one for each step
     gallery      every scene as a small GIF
+    sheet        several scenes on one picture, all running
 """

@@ -45,7 +45,6 @@ _COLUMNS = 4
 _GAP = 6
 _COLOURS = 160
 """Colours of the sheet: it looks the same as with all of its colours (50 dB), in a third of the bytes."""
-_RUNNING, _EACH = 32, 90
 """The pictures of a period on a running sheet, and how long each stands (ms)."""
 _EARLY = 0.09
 """The share of its period at which the sheet shows a scene: off its limits, where links lie in line."""
@@ -101,29 +100,6 @@ def contact_sheet(scenes: Iterable[Scene]) -> bytes:
         sheet[top : top + height, left : left + width] = tile
     # at most 2 to the power `bits` colours: the sheet has no more, so none changes
     return iio.imwrite("<bytes>", reduced(sheet), extension=".png", optimize=True, bits=8)
-
-
-def running_sheet(scenes: Iterable[Scene]) -> bytes:
-    """Return a running picture of each scene, four in a row, as a GIF: a period of each in the same time."""
-    films = [_film(scene) for scene in scenes]
-    width, height = SIZE
-    across = min(len(films), _COLUMNS)
-    shape = math.ceil(len(films) / across) * (height + _GAP) + _GAP, across * (width + _GAP) + _GAP, 3
-    sheets = np.full((_RUNNING, *shape), 206, np.uint8)
-    for number, film in enumerate(films):
-        row, column = divmod(number, across)
-        top, left = _GAP + row * (height + _GAP), _GAP + column * (width + _GAP)
-        sheets[:, top : top + height, left : left + width] = film
-    return iio.imwrite("<bytes>", sheets, extension=".gif", duration=_EACH, loop=0)
-
-
-def _film(scene: Scene) -> Bytes:
-    """Return a period of a scene in `_RUNNING` pictures, (n, height, width, 3)."""
-    clip = Clip(math.copysign(scene.period, scene.linkage.drive.speed), scene.period, fps=_RUNNING)
-    frames = SceneFrames(scene, make_plan(clip, "png"), SIZE, LOOK)
-    shape = SIZE[1], SIZE[0], 4
-    drawn = (np.frombuffer(bytes(frames.draw(n)), np.uint8).reshape(shape) for n in range(_RUNNING))
-    return np.stack([one[..., 2::-1] for one in drawn])
 
 
 def reduced(picture: Bytes) -> Bytes:

@@ -353,12 +353,13 @@ def _read_in(scene: Scene, unit: str) -> Scene:
 _OTHER_CLOSURE = "other closure"
 
 
-class _Choice(NamedTuple):
-    """The key at which a document says which closure holds, that closure, and the other one."""
+class ClosureChoice(NamedTuple):
+    """Where a document says which closure holds: the key, that closure, the other one, the joint."""
 
     key: tuple[str, ...]
     name: str
     other: str
+    joint: str
 
 
 def other_closure(scene: Scene) -> Scene:
@@ -412,9 +413,15 @@ def ghost_of(scene: Scene) -> Scene | None:
     return scene.elsewhere[_OTHER_CLOSURE]
 
 
-def _choice(scene: Scene) -> _Choice | None:
-    """Return where the first closure that can be chosen is; a missing key means the first option."""
+def _choice(scene: Scene) -> ClosureChoice | None:
+    """Return where the first closure that can be chosen is."""
+    return next(iter(closure_choices(scene)), None)
+
+
+def closure_choices(scene: Scene) -> list[ClosureChoice]:
+    """Return where the closures are that can be chosen; a missing key means the first option."""
     document = scene.document
+    found = list[ClosureChoice]()
     joints = document.get("joints", {})
     fields = ((key, form.field("assembly").plain) for key, form in SHORTHANDS.items() if key in document)
     shorthands = [((key, "assembly"), plain.options) for key, plain in fields if plain]
@@ -424,9 +431,10 @@ def _choice(scene: Scene) -> _Choice | None:
         table = document
         for name in tables:
             table = table[name]
-        found = table.get(key, options[0])
-        return _Choice((*tables, key), found, options[found == options[0]])
-    return None
+        now = table.get(key, options[0])
+        joint = tables[-1]
+        found.append(ClosureChoice((*tables, key), now, options[now == options[0]], joint))
+    return found
 
 
 # What is no number: the joints whose curves are drawn, and the crank that is driven.

@@ -1,49 +1,81 @@
-"""`linkanim closures`: every way in which a linkage can be put together, as a list and as pictures."""
+"""`linkanim closures`: all ways in which a scene's lengths can be put together."""
 
 from __future__ import annotations
 
+import sys
 from argparse import Namespace
-from collections.abc import Iterator, Mapping
+from collections.abc import Sequence
+from pathlib import Path
 
-from linkanim.atomic_files import checked_target, replacing
+from linkanim.cli.answers import target_of
 from linkanim.cli.options import inputs_of
+from linkanim.cli.progress import bar
+from linkanim.errors import BadInput
 from linkanim.export import columns, json_text
+from linkanim.manifest import Output, checked_output
+from linkanim.recorder.recording import SUFFIXES
 from linkanim.scenes import load
-from linkanim.scenes.closures import FoundClosure, closures
+from linkanim.scenes.closures import SceneClosure, closures
+from linkanim.synthesis.answers import write
+
+_TITLES = ("closure", "put together", "input", "class", "curve")
 
 
 def run(options: Namespace) -> None:
-    """Print the closures in words or JSON, and draw their sheet."""
-    target = checked_target(options.output, (".png", ".gif"), inputs_of(options)) if options.output else None
+    """Print a row, or a JSON object, for each closure; write their files, or a picture in which all run."""
     scene = load(options.scene)
-    found = closures(scene)
-    if target is not None:
-        with replacing(target) as part:
-            part.write_bytes(_sheet(found, target.suffix.lower()))
+    picture, files = _targets(options)
+    with bar(unit=" tried") as progress:
+        found = closures(scene, progress)
+    paths: list[str] = []
+    if files:
+        paths = [str(path) for path in write([one.scene for one in found], files)]
     if options.json:
-        print(json_text([_object(one) for one in found], indent=2))
+        print(json_text([_object(one, n) for n, one in enumerate(found, start=1)], indent=2))
     else:
-        print(columns([["closure", "input", "sides", "motion"], *_rows(found)]))
-        if target is not None:
-            print(target)
+        rows = [(str(n), *_cells(one, n, found)) for n, one in enumerate(found, start=1)]
+        print(columns([_TITLES, *rows]))
+    for path in paths:
+        print(path)
+    if picture:
+        _draw(found, picture)
 
 
-def _rows(found: list[FoundClosure]) -> Iterator[list[str]]:
-    for number, one in enumerate(found, start=1):
-        sides = ", ".join(f"{name} {side}" for name, side in one.sides.items()) or "-"
-        motion = f"that of closure {one.same_as}" if one.same_as else "its own"
-        yield [str(number), one.scene.info.motion_words, sides, motion]
+def _targets(options: Namespace) -> tuple[Output | None, Path | None]:
+    """Return the picture and the first scene file that `-o` names; BadInput for what is neither."""
+    if options.output is None:
+        return None, None
+    if options.output.suffix.lower() == ".toml":
+        return None, target_of(options.output, "", 1)
+    return checked_output(options.output, "", (".toml", *SUFFIXES), inputs_of(options)), None
 
 
-def _object(one: FoundClosure) -> Mapping[str, object]:
-    joints = {name: [place.real, place.imag] for name, place in one.places.items()}
-    info = one.scene.info
-    told = {"joints": joints, "input_range": info.input_range, "class": info.class_name}
-    return told | {"sides": dict(one.sides), "same_as": one.same_as}
+def _draw(found: Sequence[SceneClosure], picture: Output) -> None:
+    from linkanim.recorder.gallery import contact_sheet
+    from linkanim.recorder.sheet import MOST_TILES, record_sheet
 
-
-def _sheet(found: list[FoundClosure], suffix: str) -> bytes:
-    from linkanim.recorder.gallery import contact_sheet, running_sheet
-
+    if len(found) > MOST_TILES:
+        raise BadInput(f"a picture shows {MOST_TILES} closures at the most, and there are {len(found)}")
     scenes = [one.scene for one in found]
-    return contact_sheet(scenes) if suffix == ".png" else running_sheet(scenes)
+    if picture.path.suffix.lower() == ".png":
+        with picture.replacing() as part:
+            part.write_bytes(contact_sheet(scenes))
+    else:
+        with bar(unit=" frames") as progress:
+            print(record_sheet(scenes, picture, progress).summary, file=sys.stderr)
+    print(picture.path)
+
+
+def _cells(one: SceneClosure, number: int, found: Sequence[SceneClosure]) -> tuple[str, ...]:
+    sides = ", ".join(f"{joint} {side}" for joint, side in one.sides.items())
+    info = one.scene.info
+    words = info.input_words.partition(", and ")[0]
+    curve = "" if one.curve is None else "its own" if one.curve == number else f"that of {one.curve}"
+    return sides or ("as given" if number == 1 else "in another pose"), words, info.class_name, curve
+
+
+def _object(one: SceneClosure, number: int) -> dict[str, object]:
+    info = one.scene.info
+    same = None if one.curve == number else one.curve
+    facts: dict[str, object] = {"sides": one.sides, "same_curve_as": same, "class": info.class_name}
+    return facts | {"full_turn": info.full_turn, "input_range": info.input_range, "joints": one.pose}
