@@ -66,8 +66,6 @@ class LessonStep:
 
     def text(self, number: int, count: int) -> str:
         """Return the step, the `number`-th of `count`, as the value of the action that shows it."""
-        import json  # imported here, so that the first frame does not wait for it
-
         scene = {"name": self.scene.name, "document": self.scene.document}
         values: dict[str, Any] = {
             "step": [number, count],
@@ -265,8 +263,6 @@ def _constructed(scene: Scene, steps: int) -> dict[str, Any]:
 
 def _toml(value: object) -> str:
     """Return a value as TOML writes it, a table on one line."""
-    import json  # imported here, so that the first frame does not wait for it
-
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{key} = {_toml(one)}' for key, one in value.items())} }}"
     if isinstance(value, list):

@@ -391,7 +391,9 @@ def test_the_steps_of_a_construction_go_both_ways_by_keys_and_by_mouse(large: Pl
         assert kind_of(large) == ("dead-centres", 1)
 
 
-@pytest.mark.parametrize(("typed", "kind"), [("construction dead", "dead-centres"), ("instant constr", "centres")])
+@pytest.mark.parametrize(
+    ("typed", "kind"), [("construction dead", "dead-centres"), ("instant constr", "centres")]
+)
 def test_a_construction_is_found_by_its_name_among_all_commands(large: Player, typed: str, kind: str) -> None:
     large.press(pygame.K_F10)
     large.type(typed)
