@@ -36,9 +36,10 @@ _DRIVEN = math.radians(29.9)
 """From this transmission angle on, 30 degrees but for rounding, a linkage can be driven."""
 _DRIVEN_WITHIN = 2.0
 """The factor of the best deviation within which an answer that can be driven comes first."""
-_OWN, _EXACT = 1e-5, 1e-11
+_OWN, _PASSED, _EXACT = 1e-4, 1e-6, 1e-11
 """Deviations, as shares of the curve's size: below the first the curve is a linkage's own, and only answers
-that trace it come first; answers below the second are equally exact."""
+that trace it come first; within the second a point is passed exactly; answers below the third are equally
+exact."""
 _OTHER, _ROUGHLY = Figures(1.25, 1.2, math.inf, math.radians(5)), 1e-4
 """The factors, and the angle, by which figures differ to a reader, and the deviation that reads as zero."""
 _SEEN = 3e-3
@@ -277,7 +278,7 @@ def _passes(fit: Fit) -> bool:
     task = fit.task
     exact = np.flatnonzero(task.weights >= EXACTLY)
     traced = task.kind.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None, exact])[0]
-    return bool((np.abs(traced - task.curve.points[exact]) <= _OWN * task.curve.size).all())
+    return bool((np.abs(traced - task.curve.points[exact]) <= _PASSED * task.curve.size).all())
 
 
 def with_cognates(front: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ...]:

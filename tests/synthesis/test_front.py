@@ -97,6 +97,7 @@ def test_the_crank_of_the_answer_that_is_chosen_is_seen_to_turn_where_there_is_s
         (figures((1e-13, 2.0, 10.0), (2e-3, 1.0, 50.0)), 0, "the curve is a linkage's own"),
         (figures((1e-13, 2.0, 10.0), (9e-12, 1.0, 40.0)), 1, "two that trace it"),
         (figures((1e-7, 2.0, 3.0), (2e-3, 1.0, 50.0)), 0, "its own, with rounded points"),
+        (figures((9e-5, 2.0, 20.0), (2e-3, 1.0, 50.0)), 0, "its own, but for what reads as nothing"),
     ],
 )
 def test_the_first_answer_is_the_one_to_build(front: list[Figures], first: int, why: str) -> None:
