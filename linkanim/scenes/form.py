@@ -9,7 +9,6 @@ Its parts, in reading order:
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -226,15 +225,15 @@ def _length(value: object, unit: str) -> float:
 
 def listed(of: ValueType, count: int) -> ValueType:
     """Return the type of a list of `count` values; errors then say `length[1]`."""
-    example: list[object] = list(range(10, 10 * count + 1, 10))
-    if of.measure == "force":
-        example = [f"{number} N" for number in example]
+    unit = ' N"' if of.measure == "force" else ""
+    numbers = (f"{unit[-1:]}{number}{unit}" for number in range(10, 10 * count + 1, 10))
+    example = f"[{', '.join(numbers)}]"
     several = "forces" if of.measure == "force" else "lengths"
 
     def read(table: Table, key: str) -> tuple[Any, ...] | None:
         value = table.values[key]
         if not isinstance(value, list) or len(value) != count:
-            raise table.error(key, f"must be a list of {count} {several}, such as {json.dumps(example)}")
+            raise table.error(key, f"must be a list of {count} {several}, such as {example}")
         items = table.listed(key)
         found = tuple(items.attempt(of.read, items, item) for item in items.values)
         return None if None in found else found

@@ -128,7 +128,8 @@ class LinkageKind(ABC):
         whole, first, last = self.standard(rows), rows[:, 3:4], rows[:, 4:5]
         pin, _ = _pins(whole, first + inputs)
         direction, normal, _ = self.close(whole, closure[:, None], pin)
-        cosine = _dot(direction, normal) / np.abs(normal)
+        with np.errstate(invalid="ignore"):  # 0/0 where the pins of the last bar meet: there it has no angle
+            cosine = _dot(direction, normal) / np.abs(normal)
         if not self.turning:
             return (pin + whole[:, 3:4] * direction).real - last, cosine
         turned = np.angle(normal * np.exp(-1j * last))
