@@ -91,6 +91,8 @@ def solve_many(
     """
     scene = load(scene) if isinstance(scene, str) else scene
     check_derivatives(derivatives)
+    if not lengths:
+        raise BadInput("solve_many: name a length that differs; a scene as it is goes through scene.solve")
     chosen = [_number(scene, name) for name in lengths]
     given = [given_numbers(name, of, "solve_many") for name, of in (*lengths.items(), ("phase", phase))]
     count = max(one.size for one in given)

@@ -94,7 +94,7 @@ def test_a_long_sweep_is_solved_in_blocks(tmp_path: Path, monkeypatch: pytest.Mo
 def test_rows_have_the_time_since_the_first(capsys: pytest.CaptureFixture[str]) -> None:
     main(["solve", "press", "--sweep", "90:180:30", "--speed", "-2 rad/s", "--json"])
     found = json.loads(capsys.readouterr().out)
-    assert [list(pose)[:4] for pose in found] == [["scene", "angle", "phase", "time"]] * 4
+    assert [list(pose)[:5] for pose in found] == [["scene", "angle", "coordinate", "phase", "time"]] * 4
     assert [pose["time"] for pose in found] == pytest.approx([-math.radians(30 * k) / 2 for k in range(4)])
     main(["solve", "press", "--sweep", "0:30:30", "--speed", "0 rad/s", "--json"])
     assert ["time" in pose for pose in json.loads(capsys.readouterr().out)] == [False, False]

@@ -136,6 +136,7 @@ def test_a_length_is_called_by_key_or_by_body() -> None:
         (({"coupler": [[1.0, 2.0]]},), r"N numbers"),
         (({"coupler": 1.0}, "soon"), "phase"),
         (({"coupler": 1.0}, 1e12), "turns"),
+        (({},), "name a length that differs; a scene as it is goes through scene.solve"),
     ],
 )
 def test_what_cannot_be_solved_is_refused_in_a_sentence(given: tuple[Any, ...], words: str) -> None:
