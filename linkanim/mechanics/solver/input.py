@@ -595,7 +595,8 @@ class Swing(ThereAndBack):
     @property
     def amplitude(self) -> float:
         """Half the angle of the swing."""
-        return float(half_way(self.low, self.high))
+        found: float = half_way(self.low, self.high)
+        return found
 
     @property
     def limits(self) -> tuple[float, ...]:
