@@ -176,7 +176,7 @@ def test_a_measured_table_stands_beside_this_solution(
     ]
     assert main(words) == 0
     text = (out / "report.html").read_text(encoding="utf-8")
-    assert "Beside MBS" in text
+    assert "Comparison: MBS" in text
     table = text[text.index("this solution and MBS") :]
     table = table[: table.index("</table>")]
     percent = re.findall(r"<td>([^<]*)</td></tr>", table)
