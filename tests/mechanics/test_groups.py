@@ -328,6 +328,7 @@ def test_a_random_linkage_keeps_its_bars_and_moves_as_fifty_digits_say(form: str
         held(form, 0)
 
 
+@pytest.mark.thinned(7)
 @pytest.mark.slow
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("first", range(1, SEVERAL, FEW))
