@@ -860,7 +860,7 @@ def _returns(info: Info) -> str | None:
         return "on the same closure; velocities change sign at the limits"
     at, it = ("", "the limits") if info.mechanism.retraced else (f" at {_places(info, info.kept)}", "it")
     return (
-        f"on the same closure{at}, as beyond {it} not every dyad closes on the whole swing; "
+        f"on the same closure{at}, as beyond {it} its links do not close on the whole swing; "
         "velocities change sign there"
     )
 

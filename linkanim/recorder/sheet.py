@@ -1,14 +1,17 @@
-"""Several scenes on one picture, all running: each goes through its own period while the clip lasts."""
+"""Several scenes on one picture, numbered: each in one pose, or in its own period while a clip lasts."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
+import pygame
+
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import NOTHING_OVER
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster import offscreen, pixel_view
+from linkanim.picture.raster import offscreen, pixel_view, png_bytes
+from linkanim.picture.stills import still_phase
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
@@ -17,7 +20,9 @@ from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import Progress, Recording, Target, checked_path, theme_colours, write
 from linkanim.scenes.scene import Scene
 
-TILE = (320, 240)
+PICTURE, _HEAD = (320, 216), 24
+"""The size of each picture, and how high the line with its number above it is."""
+TILE = (PICTURE[0], PICTURE[1] + _HEAD)
 MOST_TILES = 64
 _GAP = 4
 _NUMBER = 20
@@ -36,22 +41,26 @@ class SheetFrames:
         self.size = (self._columns * across + _GAP, rows * down + _GAP)
         self.colours = theme_colours(look)
         self._theme, self._frames = theme_of(look.theme), frames
-        self._tiles = [(scene, Picture(scene, TILE, look)) for scene in scenes]
+        self._tiles = [(scene, Picture(scene, PICTURE, look)) for scene in scenes]
         self._printer, self._type = SurfacePrinter(), Type()
-        self._surface, self._tile = offscreen(self.size), offscreen(TILE)
+        self._surface, self._tile = offscreen(self.size), offscreen(PICTURE)
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, which the next call overwrites."""
+        return pixel_view(self.at([scene.period * frame / self._frames for scene, _ in self._tiles]))
+
+    def at(self, phases: Sequence[float]) -> pygame.Surface:
+        """Return the picture in which each scene is at its phase; the next call overwrites it."""
         self._surface.fill(self._theme.rule)
-        for number, (scene, picture) in enumerate(self._tiles):
+        for number, ((scene, picture), phase) in enumerate(zip(self._tiles, phases, strict=True)):
             row, column = divmod(number, self._columns)
-            phase = scene.period * frame / self._frames
             self._printer.print(self._tile, picture, phase, scene.linkage.drive.speed, NOTHING_OVER)
-            ink = self._theme.ink
-            self._type.draw(self._tile, f"{number + 1}", (8, 6), size=_NUMBER, colour=ink, strong=True)
-            place = (_GAP + column * (TILE[0] + _GAP), _GAP + row * (TILE[1] + _GAP))
-            self._surface.blit(self._tile, place)
-        return pixel_view(self._surface)
+            left, top = _GAP + column * (TILE[0] + _GAP), _GAP + row * (TILE[1] + _GAP)
+            self._surface.fill(self._theme.background, (left, top, *TILE))
+            self._surface.blit(self._tile, (left, top + _HEAD))
+            at, ink = (left + 8, top + 4), self._theme.ink
+            self._type.draw(self._surface, f"{number + 1}", at, size=_NUMBER, colour=ink, strong=True)
+        return self._surface
 
 
 def record_sheet(scenes: Sequence[Scene], path: Target, progress: Progress | None = None) -> Recording:
@@ -60,3 +69,8 @@ def record_sheet(scenes: Sequence[Scene], path: Target, progress: Progress | Non
     first = scenes[0]
     plan = make_plan(Clip(first.linkage.drive.speed, first.period, 20.0), form)
     return write(SheetFrames(scenes, plan.frames, Look(hud=False)), plan, path, progress)
+
+
+def still_sheet(scenes: Sequence[Scene]) -> bytes:
+    """Return a PNG of scenes side by side, each in the pose that reads best."""
+    return png_bytes(SheetFrames(scenes, 1, Look(hud=False)).at([still_phase(scene) for scene in scenes]))

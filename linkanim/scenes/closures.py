@@ -87,9 +87,7 @@ def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[
             continue
 
 
-def _in_other_poses(
-    scene: Scene, told: Callable[[int, int], None]
-) -> Iterator[tuple[Scene, dict[str, str]]]:
+def _in_other_poses(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[Scene, dict[str, str]]]:
     """Yield the scene of points in other poses: of its group, and for each of those of its dyads."""
     seeds = [scene]
     if group_of(scene.linkage):

@@ -387,8 +387,8 @@ def other_return(scene: Scene) -> Scene:
         raise AssemblyError(f"{scene.name}: its input turns fully, and never comes back")
     if scene.mechanism.retraced and not scene.linkage.drive.retraced:
         raise AssemblyError(
-            f"{scene.name}: it comes back on the same closure, as not every dyad closes on the whole swing "
-            "beyond its limits"
+            f"{scene.name}: it comes back on the same closure, as its links do not close on the whole "
+            "swing beyond its limits"
         )
     returns = "other" if scene.linkage.drive.retraced else "same"
     document = replaced(scene.document, ("drive", "returns"), returns)

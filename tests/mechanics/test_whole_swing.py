@@ -128,7 +128,7 @@ def test_where_the_way_on_does_not_exist_the_input_turns_back_and_says_so(
     there, back = scene.solve(phase=np.array([2.0, 2 * math.pi - 2.0])).position["D"]
     assert back == pytest.approx(there, rel=1e-14)
     returns = dict(scene.info.lines)["returns"]
-    assert returns.startswith("on the same closure, as beyond the limits not every dyad closes")
+    assert returns.startswith("on the same closure, as beyond the limits its links do not close")
     with pytest.raises(AssemblyError, match="it comes back on the same closure"):
         other_return(scene)
     path = written(tmp_path, HELD)

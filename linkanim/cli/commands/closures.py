@@ -51,15 +51,14 @@ def _targets(options: Namespace) -> tuple[Output | None, Path | None]:
 
 
 def _draw(found: Sequence[SceneClosure], picture: Output) -> None:
-    from linkanim.recorder.gallery import contact_sheet
-    from linkanim.recorder.sheet import MOST_TILES, record_sheet
+    from linkanim.recorder.sheet import MOST_TILES, record_sheet, still_sheet
 
     if len(found) > MOST_TILES:
         raise BadInput(f"a picture shows {MOST_TILES} closures at the most, and there are {len(found)}")
     scenes = [one.scene for one in found]
     if picture.path.suffix.lower() == ".png":
         with picture.replacing() as part:
-            part.write_bytes(contact_sheet(scenes))
+            part.write_bytes(still_sheet(scenes))
     else:
         with bar(unit=" frames") as progress:
             print(record_sheet(scenes, picture, progress).summary, file=sys.stderr)
