@@ -32,7 +32,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import text
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.fitting import FEW, PathTask
-from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, LinkageKind, Real
+from linkanim.synthesis.linkages import FOUR_BAR, Complex, Indices, Linkage4, LinkageKind, Real
 from linkanim.synthesis.roberts import CognateJoints, cognate_joints
 
 # An answer: a linkage as a scene, and how well it follows the curve according to the solver.
@@ -108,6 +108,8 @@ class Fit(CouplerLinkage):
     """The largest of those distances."""
     stray: float
     """The largest distance of the coupler point from the points' polyline."""
+    phases: Real | None
+    """The phases at the points, of an answer whose crank swings to its limits along the curve."""
     task: PathTask = field(repr=False)
     exact: Fit | None = field(default=None, repr=False)
     """The answer before its lengths were rounded."""
@@ -257,8 +259,19 @@ def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) ->
     except (AssemblyError, SceneError):
         return None
     phases = phases[0] + np.append(0.0, np.cumsum(steps))
-    fit = _fit(task, _Answer(scene, row, closure, "phase"), phases)
-    return fit and replace(fit, angles=angles)
+    return _fit(task, _Answer(scene, row, closure, "phase"), phases)
+
+
+def checked_again(task: PathTask, fit: Fit, chosen: Indices) -> Fit | None:
+    """Return an answer to the task among `chosen` points as one at all points; None where it is none."""
+    by: Literal["angle", "phase"] = "angle" if fit.phases is None else "phase"
+    answer = _Answer(fit.scene, fit.row, fit.closure_sign, by)
+    places = fit.angles if fit.phases is None else fit.phases
+    turn = np.array([[math.copysign(answer.round, places[-1] - places[0])]])
+    along = task.spread(places[None], turn, chosen, np.arange(len(task.curve.points)))[0]
+    exact = fit.exact and checked_again(task, fit.exact, chosen)
+    found = _fit(replace(task, requirements=fit.task.requirements), answer, along)
+    return found and replace(found, exact=exact)
 
 
 class _Answer(NamedTuple):
@@ -278,6 +291,13 @@ class _Answer(NamedTuple):
         """Return the coupler point at places."""
         motion = self.scene.solve(**{self.by: places}, derivatives=0)
         return np.asarray(as_complex(motion.position["P"]))
+
+    def angles(self, places: Real) -> Real:
+        """Return the crank's angles at places."""
+        if self.by == "angle":
+            return places
+        at = self.scene.solve(phase=places, derivatives=0).position
+        return np.unwrap(np.angle(as_complex(at["A"]) - as_complex(at["O2"])))
 
 
 def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]) -> Scene:
@@ -304,7 +324,8 @@ def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
         scene=answer.scene,
         parameters=parameters_of(task.kind, answer.row),
         closure=task.kind.sides[answer.closure < 0],
-        angles=places,
+        angles=answer.angles(places),
+        phases=None if answer.by == "angle" else places,
         rms=float(np.sqrt((off**2).mean())),
         largest=float(off.max()),
         stray=stray,

@@ -62,15 +62,35 @@ class PathTask:
         """Whether the points say where the curve goes between them."""
         return self.timing is None and len(self.curve.points) > FEW
 
+    def among(self, chosen: Indices) -> PathTask:
+        """Return the task for the chosen points."""
+        curve = DrawnCurve(self.curve.points[chosen], self.curve.closed)
+        timing = None if self.timing is None else self.timing[chosen]
+        return replace(self, curve=curve, weights=self.weights[chosen], timing=timing)
+
     def problem(self, chosen: Indices) -> PathTask:
         """Return the task for the chosen points, at size 1 about the origin."""
         return replace(
-            self,
+            self.among(chosen),
             curve=DrawnCurve(self.normal.points[chosen], self.curve.closed),
             requirements=self.requirements.placed(self.curve.centre, self.curve.size),
-            weights=self.weights[chosen],
-            timing=None if self.timing is None else self.timing[chosen],
         )
+
+    def spread(self, angles: Real, turn: Real, before: Indices, after: Indices) -> Real:
+        """Return crank angles at the points `after`, interpolated from those (B, n) at the points `before`.
+
+        `turn` (B, 1) is how far the crank turns along the whole of a closed curve.
+        """
+        if np.array_equal(before, after):
+            return angles
+        if self.timing is not None:
+            return np.asarray(angles[:, :1] + (self.timing[after] - self.timing[before[0]]))
+        places = self.normal.places[before]
+        if self.curve.closed:
+            places = np.append(places, places[0] + 1.0)
+            angles = np.concatenate([angles, angles[:, :1] + turn], axis=1)
+        there = [np.interp(self.normal.places[after], places, row) for row in angles]
+        return np.array(there).reshape(len(angles), len(after))
 
     def scaled(self, candidates: Candidates) -> Candidates:
         """Return candidates of size 1 in the curve's own unit and place."""

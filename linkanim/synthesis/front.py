@@ -299,9 +299,7 @@ def _fitted(
     task: PathTask, now: _Limited, before: Indices, chosen: Indices, steps: int
 ) -> tuple[_Limited, Real]:
     """Return candidates fitted at chosen points within their limits, and each one's merit."""
-    now = now._replace(
-        candidates=now.candidates._replace(angles=spread(task, now.candidates, before, chosen))
-    )
+    now = now._replace(candidates=spread(task, now.candidates, before, chosen))
     problem = now.problem(task, chosen)
     candidates, _ = refined(problem, now.candidates, steps)
     return now._replace(candidates=candidates), merit(problem, candidates)

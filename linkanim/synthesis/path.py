@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,15 +14,24 @@ from linkanim import units
 from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import BadInput
 from linkanim.intake import meant
-from linkanim.synthesis.answers import Fit, cognates_of
+from linkanim.synthesis.answers import Fit, checked_again, cognates_of
 from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.fitting import EXACTLY, PathTask
-from linkanim.synthesis.front import PREFERENCES, Preference, cards, differing, preferred, searched_front
-from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
+from linkanim.synthesis.front import (
+    PREFERENCES,
+    Preference,
+    cards,
+    differing,
+    front_of,
+    preferred,
+    searched_front,
+)
+from linkanim.synthesis.linkages import KINDS, Indices, LinkageKind, Real, Requirements, refuse_count
 from linkanim.synthesis.search import (
     SAME,
     Pulse,
     best_fits,
+    none_fits,
     rounded_to,
     unwatched,
     with_cognates_marked,
@@ -33,6 +42,8 @@ from linkanim.units import shown
 LARGEST = 8.0
 """The longest link by default, in curve sizes."""
 COUNT = 5
+_SEARCHED = 128
+"""The largest number of points that are searched with; answers are then checked at all points."""
 _MOST_TURNS = 10_000
 _MOST_TURNED = _MOST_TURNS * math.tau
 """The largest angle of a timing: there an angle still has twelve digits."""
@@ -78,16 +89,41 @@ def path(
         raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
     steps = itertools.count(1)
     pulse = (lambda: progress(next(steps), 0)) if progress else unwatched
-    fits = best_fits(task, count, pulse)
+    chosen = task.thinned(_SEARCHED)
+    few = task.among(chosen)
+    fits = best_fits(few, count, pulse)
     most_exact = fits[0]
     if prefer != "exact":
-        front = preferred(searched_front(task, fits, pulse), prefer)
+        front = preferred(searched_front(few, fits, pulse), prefer)
         fits = cards(front, front[0], count) if prefer == "balanced" else tuple(differing(front, count))
     if rounding is not None:
         fits = with_round_lengths(fits, rounding, pulse)
         fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
-    fits = tuple(replace(fit, most_exact=most_exact) for fit in fits)
-    return with_cognates_marked(_with_cognates(fits, rounding, pulse) if cognates else fits)
+    fits = _with_cognates(fits, rounding, pulse) if cognates else fits
+    best, *found = _at_all_points(task, [most_exact, *fits], chosen, pulse)
+    listed = [replace(fit, most_exact=best or fit) for fit in found if fit]
+    if not listed:
+        raise BadInput(none_fits(task))
+    return with_cognates_marked(listed)
+
+
+def front_behind(fits: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ...]:
+    """Return the whole front from which answers of `path` were chosen, the most exact first."""
+    task = fits[0].task
+    chosen = task.thinned(_SEARCHED)
+    found = _at_all_points(task, searched_front(task.among(chosen), pulse=pulse), chosen, pulse)
+    return front_of([*fits, *filter(None, found)])
+
+
+def _at_all_points(task: PathTask, fits: Iterable[Fit], chosen: Indices, pulse: Pulse) -> list[Fit | None]:
+    """Return answers to the task among chosen points as they are at all points; None for one that is none."""
+    if len(chosen) == len(task.curve.points):
+        return list(fits)
+    found = list[Fit | None]()
+    for fit in fits:
+        pulse()
+        found.append(checked_again(task, fit, chosen))
+    return found
 
 
 def _with_cognates(fits: Sequence[Fit], rounding: float | None, pulse: Pulse) -> tuple[Fit, ...]:

@@ -81,11 +81,12 @@ def best_fits(
     if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
         fits = best_of([*fits, *_searched(task.swinging(), count, pulse, widely=widely)], count)
     if not fits:
-        raise BadInput(_none_fits(task))
+        raise BadInput(none_fits(task))
     return fits
 
 
-def _none_fits(task: PathTask) -> str:
+def none_fits(task: PathTask) -> str:
+    """Return the sentence that no linkage keeps to what is asked for."""
     limits = ["the box"] if task.requirements.box else []
     limits += [f"the given {name}" for name in task.requirements.given]
     named = ", ".join([*limits, "the longest link"])
@@ -149,7 +150,7 @@ def _refined_through(task: PathTask, stages: tuple[_Stage, ...], pulse: Pulse) -
         pulse()
         now = now.take(_by_merit(cost)[: stage.candidates])
         before, chosen = chosen, task.thinned(stage.points)
-        now = now._replace(angles=spread(task, now, before, chosen))
+        now = spread(task, now, before, chosen)
         problem = task.problem(chosen)
         now, cost = refined(problem, now, stage.steps, guarded=stage is stages[-1])
         if number:
@@ -170,30 +171,21 @@ def refitted(task: PathTask, fit: Fit) -> Fit | None:
     start = Candidates(fit.row[None], np.array([fit.closure_sign]), fit.angles[None], np.array([fit.sense]))
     chosen = task.thinned(_STAGES[-1].points)
     now = task.normalised(start)
-    now = now._replace(angles=spread(task, now, np.arange(len(task.normal.points)), chosen))
+    now = spread(task, now, np.arange(len(task.normal.points)), chosen)
     now, _ = refined(task.problem(chosen), now, _REFIT_STEPS)
     return next(verified(task, now, chosen), None)
 
 
-def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indices) -> Real:
-    """Return the crank angles at the points `after`, interpolated from those at the points `before`."""
-    if np.array_equal(before, after):
-        return candidates.angles
-    if task.timing is not None:
-        return np.asarray(candidates.angles[:, :1] + (task.timing[after] - task.timing[before[0]]))
-    places, angles = task.normal.places[before], candidates.angles
-    if task.curve.closed:
-        places = np.append(places, places[0] + 1.0)
-        angles = np.concatenate([angles, angles[:, :1] + 2 * math.pi * candidates.sense[:, None]], axis=1)
-    there = [np.interp(task.normal.places[after], places, row) for row in angles]
-    return np.array(there).reshape(len(angles), len(after))
+def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indices) -> Candidates:
+    """Return candidates at the points `after`, their crank angles interpolated from the points `before`."""
+    turn = 2 * math.pi * candidates.sense[:, None]
+    return candidates._replace(angles=task.spread(candidates.angles, turn, before, after))
 
 
 def verified(task: PathTask, normal: Candidates, chosen: Indices, pulse: Pulse = unwatched) -> Iterator[Fit]:
     """Yield the answers among candidates of size 1 at chosen points, each linkage once."""
-    everywhere = spread(task, normal, chosen, np.arange(len(task.normal.points)))
-    scaled = task.scaled(normal._replace(angles=everywhere))
-    middle = everywhere.shape[1] // 2
+    scaled = task.scaled(spread(task, normal, chosen, np.arange(len(task.normal.points))))
+    middle = scaled.angles.shape[1] // 2
     joints = task.kind.joints(scaled.rows, scaled.closure, scaled.angles[:, [0, middle]])
     known: list[Complex] = []
     for (row, closure, angles, _), places in zip(zip(*scaled, strict=True), joints, strict=True):

@@ -12,6 +12,7 @@ import pytest
 from random_curves import curves
 
 from linkanim.errors import BadInput
+from linkanim.scenes.scene import Scene
 from linkanim.synthesis.answers import Figures, Fit
 from linkanim.synthesis.curves import stroke_of
 from linkanim.synthesis.follower import COUNT
@@ -237,3 +238,30 @@ def test_a_preference_that_is_none_is_refused() -> None:
 
 def test_what_does_not_follow_is_not_on_the_front() -> None:
     assert front_of([]) == ()
+
+
+# What a search looks at must not grow with the points: only answers that are listed are checked at all of
+# them, each in some twenty passes. The sum of all cells that the solver was asked for says so.
+@pytest.mark.parametrize("prefer", ["balanced", "exact"])
+def test_a_long_path_is_searched_by_some_of_its_points_and_answered_at_all(
+    prefer: Preference, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    turn = np.linspace(0, 2 * math.pi, 20_000, endpoint=False)
+    points = 60 * np.exp(1j * turn) + 8 * np.exp(-2j * turn) + 5j * np.sin(3 * turn)
+    asked, solve = list[int](), Scene.solve
+
+    def counted(scene: Scene, **given: Any) -> Any:
+        asked.append(max(np.size(value) for value in given.values()))
+        return solve(scene, **given)
+
+    monkeypatch.setattr(Scene, "solve", counted)
+    fits = path(np.column_stack([points.real, points.imag]), prefer=prefer, count=3)
+    assert sum(count >= 10_000 for count in asked) <= 30 * (len(fits) + 1)
+    for fit in fits:
+        assert len(fit.angles) == len(points)
+        passed = FOUR_BAR.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None])[0]
+        assert fit.rms == pytest.approx(np.sqrt((np.abs(passed - points) ** 2).mean()), rel=1e-9)
+        curve = FOUR_BAR.points(fit.row[None], np.array([fit.closure_sign]), turn[None, ::4])[0]
+        some = points[::400]
+        nearest = np.abs(curve - some[:, None]).min(axis=1)
+        assert np.abs(passed[::400] - some) == pytest.approx(nearest, abs=2e-3 * fit.task.curve.size)

@@ -18,9 +18,9 @@ from linkanim.export import csv_head, csv_rows
 from linkanim.intake import named
 from linkanim.synthesis.answers import Fit
 from linkanim.synthesis.curve_files import CurveFile, read_curve
-from linkanim.synthesis.front import differ, front_of, searched_front
+from linkanim.synthesis.front import differ, front_of
 from linkanim.synthesis.linkages import Real
-from linkanim.synthesis.path import path
+from linkanim.synthesis.path import front_behind, path
 from linkanim.units import significant
 
 _UNIT = "mm"
@@ -53,7 +53,7 @@ def run(options: Namespace) -> None:
     if front is not None:
         steps = count(1)
         with bar(unit=" steps") as progress:
-            found = searched_front(fits[0].task, fits, lambda: progress(next(steps), 0))
+            found = front_behind(fits, lambda: progress(next(steps), 0))
         write_text(front, _table(found))
     on_front = front_of(fits)
     deliver(fits, target, options, _TITLES, _cells, lambda fit: _object(fit) | {"front": fit in on_front})
