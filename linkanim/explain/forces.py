@@ -547,12 +547,14 @@ def _equations(body: FreeBody, balance: Balance) -> tuple[Formula, Formula, Form
     return x, y, sum((couple for _, couple in body.couples), turning)
 
 
-def _freed(body: FreeBody, sums: Iterable[Formula]) -> tuple[Item, ...]:
+def _freed(body: FreeBody, sums: tuple[Formula, Formula, Formula]) -> tuple[Item, ...]:
     acting = dict.fromkeys([*(one.name for one in body.forces), *(name for name, _ in body.couples)])
     if not acting:
         return (Words("Nothing acts on it."),)
     listed = Unknown(tuple(Formula("leaf", symbol=_symbol(name)) for name in acting), "On it act")
-    said = f"Its forces across and up, and their moments about {marked(body.about)}:"
+    about = marked(body.about)
+    moments = f", and their moments about {about}" if sums[-1].symbolic else f"; none has a moment about {about}"
+    said = f"Its forces across and up{moments}:"
     return (listed, Words(said), *(Equation(one, ZERO) for one in sums if one.symbolic))
 
 

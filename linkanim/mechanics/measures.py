@@ -502,7 +502,7 @@ def loaded(motion: Any, load: Load) -> tuple[Vector, Vector]:
         arm = turned(load.at, body_direction(motion, body))
     force = turned(load.force, body_direction(motion, body)) if load.turns or load.against else load.force
     share = _share_of(motion, load)
-    return arm, force if share is None else (force[0] * share, force[1] * share)
+    return arm, force if share is None else (force[0] * share + 0.0, force[1] * share + 0.0)  # −0 is 0
 
 
 def _share_of(motion: Any, load: Load) -> Any:

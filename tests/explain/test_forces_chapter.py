@@ -215,3 +215,11 @@ def test_what_has_no_forces_is_refused_in_one_line(
     said = capsys.readouterr().err
     assert reason in said
     assert said.count("\n") == 1
+
+
+def test_no_zero_has_a_sign_and_a_body_without_moments_says_so() -> None:
+    engine = load("engine")
+    found = forces_of(engine, math.radians(60.0) - engine.linkage.drive.start)
+    text = document(found, replace(MARKDOWN, figure=lambda _: ""))
+    assert not re.search(r"[-−]0\s*(\\,)?\s*(\\mathrm|\\text|N\b)", text)
+    assert "forces across and up; none has a moment about B:" in text
