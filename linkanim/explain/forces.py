@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkanim.explain.formula import (
@@ -553,7 +553,9 @@ def _freed(body: FreeBody, sums: tuple[Formula, Formula, Formula]) -> tuple[Item
         return (Words("Nothing acts on it."),)
     listed = Unknown(tuple(Formula("leaf", symbol=_symbol(name)) for name in acting), "On it act")
     about = marked(body.about)
-    moments = f", and their moments about {about}" if sums[-1].symbolic else f"; none has a moment about {about}"
+    moments = (
+        f", and their moments about {about}" if sums[-1].symbolic else f"; none has a moment about {about}"
+    )
     said = f"Its forces across and up{moments}:"
     return (listed, Words(said), *(Equation(one, ZERO) for one in sums if one.symbolic))
 

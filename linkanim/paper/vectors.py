@@ -32,7 +32,7 @@ from linkanim.picture.view import Rect
 
 _WIDE, _TALL = (520, 380), (400, 480)
 """The figure's size in pixels; printed beside its equations, it has letters of some 7 pt."""
-_FILLED = 0.82
+_FILLED = 0.86
 """The share of the picture's width or height that vectors and links take."""
 _SHORT = 1e-6
 """A share of the picture's width: a vector that is shorter has no direction."""
@@ -60,14 +60,9 @@ class NamedPlace(NamedTuple):
 def vectors_svg(found: Solution) -> str:
     """Return the vector loops as SVG: each vector once, with its name, and its joints with theirs."""
     picture = _picture(found)
-    ends = {end for one in found.arrows for end in (one.begin, one.end)}
-    bodies = {name for body in found.request.scene.linkage.bodies for name in body.joints}
-    pins = [name for name in picture.figure.fixed if name in bodies or found.places[name] in ends]
-    ground = Group("ground", ground_layers(picture.drawing.setting, pins))
-    others = {*picture.figure.fixed} - {*pins}
-    links = picture.drawing.faint_groups(found.request.scene.pose(found.phase, 0), others)
+    ground = Group("ground", ground_layers(picture.drawing.setting, _pins(found, picture)))
     title = f"Vector loops of {found.title}"
-    drawn = [ground, *links, *_drawn(found, picture)]
+    drawn = [ground, *_links(found, picture), *_drawn(found, picture)]
     return svg(picture.size, picture.theme.background, drawn, title=title, indices=indices_of(found))
 
 
@@ -142,12 +137,26 @@ def _picture(found: Solution) -> Picture:
     high, wide = (float(np.ptp(np.imag(places))), float(np.ptp(np.real(places))))
     size = _TALL if high > wide else _WIDE
     whole = Figured(scene, size, look, found.phase).picture
-    ends = np.array([_pixel(whole, place) for place in places])
+    outlines = (loop for group in _links(found, whole) for layer in group.layers for loop in layer.loops)
+    ends = np.concatenate([[_pixel(whole, place) for place in places], *outlines])
     spans = max(float(np.ptp(ends.real)), 1.0), max(float(np.ptp(ends.imag)), 1.0)
     zoom = min(_FILLED * size[0] / spans[0], _FILLED * size[1] / spans[1])
     off = (ends.real.max() + ends.real.min() - size[0]) / 2, (ends.imag.max() + ends.imag.min() - size[1]) / 2
     pan = -zoom * float(off[0]) / size[1], -zoom * float(off[1]) / size[1]
     return Figured(scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
+
+
+def _pins(found: Solution, picture: Picture) -> list[str]:
+    """Return the fixed pins of links and of vectors."""
+    ends = {end for one in found.arrows for end in (one.begin, one.end)}
+    bodies = {name for body in found.request.scene.linkage.bodies for name in body.joints}
+    return [name for name in picture.figure.fixed if name in bodies or found.places[name] in ends]
+
+
+def _links(found: Solution, picture: Picture) -> Iterator[Group]:
+    """Return the links in faint colours, with the pins of nothing else."""
+    others = {*picture.figure.fixed} - {*_pins(found, picture)}
+    return picture.drawing.faint_groups(found.request.scene.pose(found.phase, 0), others)
 
 
 def _pixel(picture: Picture, at: complex) -> complex:

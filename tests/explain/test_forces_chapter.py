@@ -222,4 +222,4 @@ def test_no_zero_has_a_sign_and_a_body_without_moments_says_so() -> None:
     found = forces_of(engine, math.radians(60.0) - engine.linkage.drive.start)
     text = document(found, replace(MARKDOWN, figure=lambda _: ""))
     assert not re.search(r"[-−]0\s*(\\,)?\s*(\\mathrm|\\text|N\b)", text)
-    assert "forces across and up; none has a moment about B:" in text
+    assert "forces across and up, none of which has a moment about B:" in text

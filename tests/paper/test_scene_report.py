@@ -244,13 +244,18 @@ def test_its_loops_name_each_vector_and_joint_once(press: Path) -> None:
     assert names == ["O2", "O7", "A", "D", "B", "C", "H", "R2", "R3", "R1", "R7", "R6", "R4", "S5"]
 
 
-@pytest.mark.parametrize(("name", "axis", "room"), [("press", 1, 480), ("pumpjack", 0, 520)])
-def test_loops_fill_their_figure_in_height_or_width(name: str, axis: int, room: int) -> None:
+@pytest.mark.parametrize(
+    ("name", "axis", "room"),
+    [("press", 1, 480), ("pumpjack", 0, 520), ("engine", 1, 480)],
+    ids=["taller than wide", "wider than tall", "a flywheel reaches below all joints"],
+)
+def test_loops_and_links_fill_their_figure_and_none_is_cut_off(name: str, axis: int, room: int) -> None:
     root = ElementTree.fromstring(vectors_svg(solution(PoseRequest(load(name), "phase", 1.0, 1.0))))
-    vectors = [group for group in root.iter() if (group.get("id") or "").startswith("vector-")]
-    drawn = [path.get("d") or "" for group in vectors for path in group if path.tag.endswith("path")]
-    places = [float(place[axis]) for one in drawn for place in re.findall(r"[ML]([\d.]+) ([\d.]+)", one)]
-    assert max(places) - min(places) == pytest.approx(0.82 * room, rel=0.03)
+    groups = [one for one in root.iter() if re.match(r"vector-|body-|joint-|fitting-", one.get("id") or "")]
+    drawn = [path.get("d") or "" for group in groups for path in group if path.tag.endswith("path")]
+    places = [float(place[axis]) for one in drawn for place in re.findall(r"[ML]([-\d.]+) ([-\d.]+)", one)]
+    assert 0 < min(places) < max(places) < room
+    assert max(places) - min(places) == pytest.approx(0.86 * room, rel=0.03)
 
 
 def test_facts_and_the_end_have_the_tables_digits_and_set_symbols(press: Path) -> None:
