@@ -552,11 +552,8 @@ def _freed(body: FreeBody, sums: tuple[Formula, Formula, Formula]) -> tuple[Item
     if not acting:
         return (Words("Nothing acts on it."),)
     listed = Unknown(tuple(Formula("leaf", symbol=_symbol(name)) for name in acting), "On it act")
-    about = marked(body.about)
-    moments = (
-        f", and their moments about {about}" if sums[-1].symbolic else f"; none has a moment about {about}"
-    )
-    said = f"Its forces across and up{moments}:"
+    turning = "and their moments" if sums[-1].symbolic else "none of which has a moment"
+    said = f"Its forces across and up, {turning} about {marked(body.about)}:"
     return (listed, Words(said), *(Equation(one, ZERO) for one in sums if one.symbolic))
 
 
