@@ -11,6 +11,7 @@ from linkanim.atomic_files import checked_target
 from linkanim.export import columns, json_text
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.answers import file_set, names_of, write
+from linkanim.synthesis.drivers import Motor
 
 
 class Designed(Protocol):
@@ -50,3 +51,8 @@ def deliver(
         print(json_text([{"file": file} | values(one) for file, one in rows], indent=2))
     else:
         print(columns([("file", *titles), *((file, *cells(one)) for file, one in rows)]))
+
+
+def motor_of(options: Namespace) -> Motor:
+    """Return where a driver's motor is asked to stand, or whether a driver is wanted."""
+    return options.motor or bool(options.driver)

@@ -523,6 +523,12 @@ _BOXES = _value(
 )
 
 
+_DRIVER = (
+    _flag("--driver", "give each answer whose input swings a crank on a motor that turns fully, and a rod"),
+    _value("--motor X,Y", pair, "where the driver's motor stands; has --driver as well"),
+)
+
+
 def _limits(sizes: str, room: Argument = _BOX) -> tuple[Argument, ...]:
     """Return the limits of what is synthesised."""
     return (
@@ -799,6 +805,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--front FILE.csv", Path, "write the front of deviation, size and transmission angle"),
         _value("--round LENGTH", step, 'round all lengths to multiples of this, such as "0.1 mm"'),
         _flag("--open", "the curve does not close"),
+        *_DRIVER,
         _flag("--cognates", "add the two Roberts cognates of each four-bar"),
         _flag("--json", "print a list of objects; angles in radians"),
     ),
@@ -815,6 +822,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _takes(
             "--prefer", choices=("compact", "angle"), help="prefer small links, or a large transmission angle"
         ),
+        *_DRIVER,
         _value("--count N", count, "the number of answers (default: 6)", 6),
         _flag("--json", "print a list of objects; angles in radians"),
     ),
@@ -855,6 +863,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--points N", count, "the number of precision points, 3 to 5 (default: as many as possible)"),
         _flag("--chebyshev", "keep Chebyshev's spacing of the precision points"),
+        *_DRIVER,
         _value("--count N", count, "the number of answers (default: 3)", 3),
         _value("--chart ERROR", Path, "draw the structural error of the best answer as SVG, PNG, PDF or CSV"),
         _flag("--json", "print a list of objects; angles in radians"),

@@ -8,6 +8,7 @@ From the ground up; a module imports from those before it only:
     curve_files    a curve's file: numbers, or an SVG's first path
     atlas          coupler curves to start from
     fitting        the task of a path; least squares over many candidates
+    drivers        a motor for a linkage whose input swings
     answers        answers checked by the solver; cognates; files
     search         from a curve to linkages that follow it, the best first
     front          deviation, size and transmission angle judged together

@@ -31,6 +31,7 @@ from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import text
 from linkanim.synthesis.curves import DrawnCurve
+from linkanim.synthesis.drivers import Driver
 from linkanim.synthesis.fitting import FEW, PathTask
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Indices, Linkage4, LinkageKind, Real
 from linkanim.synthesis.roberts import CognateJoints, cognate_joints
@@ -55,6 +56,8 @@ class CouplerLinkage(ABC):
     """The least one; where the input does not turn fully, over the range that it was made for."""
     size: float
     """The longest link, or side of the coupler."""
+    driver: Driver | None = field(default=None, repr=False)
+    """What swings its input, if the scene has a motor that turns fully for that."""
 
     @property
     @abstractmethod
@@ -108,7 +111,7 @@ class Fit(CouplerLinkage):
     """The largest of those distances."""
     stray: float
     """The largest distance of the coupler point from the points' polyline."""
-    phases: Real | None
+    phases: Real | None = None
     """The phases at the points, of an answer whose crank swings to its limits along the curve."""
     task: PathTask = field(repr=False)
     exact: Fit | None = field(default=None, repr=False)

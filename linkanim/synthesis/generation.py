@@ -28,6 +28,7 @@ from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.answers import Figures
 from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
+from linkanim.synthesis.drivers import Driver, all_driven, place_of
 from linkanim.synthesis.front import differ, led
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, refuse_count
 from linkanim.units import shown
@@ -367,11 +368,13 @@ class Generated:
     chebyshev: float
     """The largest structural error before levelling, with Chebyshev's points."""
     task: FunctionTask = field(repr=False)
+    driver: Driver | None = field(default=None, repr=False)
+    """What swings its input, if the scene has a motor that turns fully for that."""
 
     def errors(self, x: Real) -> Real:
         """Return the structural errors at x as the solver has them, in y's unit."""
         scales = self.input_start, self.input_range, self.output_start, self.output_range
-        return _solved_errors(self.scene, self.task, scales, x)
+        return _solved_errors(self.driver.before if self.driver else self.scene, self.task, scales, x)
 
     @property
     def class_name(self) -> str:
@@ -453,14 +456,20 @@ def function(
     all do.
 
     `given` is an expression in x as "y = log10(x)", over x from `first` to `last`, or the rows (x, y) of a
-    table. The other options are described below. BadInput for what is not a function, for ranges that make no
-    sense, and if no linkage was found.
+    table. `driver` gives each answer whose input swings a motor that turns fully, or says where that stands
+    (x, y). The other options are described below. BadInput for what is not a function, for ranges that make
+    no sense, and if no linkage was found.
     """
     refuse_count(count)
     prefer = options.pop("prefer", "balanced")
     if prefer not in ("balanced", "exact"):
         raise BadInput(f"prefer={shown(prefer)}: take balanced or exact")
-    return answers(task_of(given, first, last, **options), count, exact=prefer == "exact")
+    motor = options.pop("driver", False)
+    place = place_of(motor)
+    found = answers(task_of(given, first, last, **options), count, exact=prefer == "exact")
+    if motor is False:
+        return found
+    return all_driven(found, place, lambda one: one.input_start + np.array([0.0, one.input_range]))
 
 
 def task_of(

@@ -43,6 +43,7 @@ from linkanim.synthesis.burmester import (
     slides_through,
     straightened,
 )
+from linkanim.synthesis.drivers import all_driven, place_of
 from linkanim.synthesis.front import differ, is_driven
 from linkanim.synthesis.linkages import (
     KINDS,
@@ -149,14 +150,26 @@ def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[Guid
     Linkages without a defect come first, of them the one to build: small, with a transmission angle of 30
     degrees at least where there is one; the others follow by size. `prefer` is "compact" or "angle" to weigh
     one of these more, and lists the best of that first. For five poses all linkages are returned, for fewer a
-    choice of different ones. The other options are described below. BadInput, with the reason, for poses and
+    choice of different ones. `driver` gives each answer whose crank swings a motor that turns fully, or says
+    where that stands (x, y). The other options are described below. BadInput, with the reason, for poses and
     limits that make no sense, and if no linkage of the kind passes the poses.
     """
     refuse_count(count)
     prefer = options.pop("prefer", None)
     if prefer is not None and prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {' or '.join(PREFERENCES)}, or leave it out")
-    return answers(task_of(poses, **options), count, PREFERENCES[prefer] if prefer else None)
+    motor = options.pop("driver", False)
+    place = place_of(motor)
+    found = answers(task_of(poses, **options), count, PREFERENCES[prefer] if prefer else None)
+    if motor is False:
+        return found
+    driven = all_driven(found, place, _on_the_way)
+    return tuple(replace(one, phases=one.driver.phases(one.angles)) if one.driver else one for one in driven)
+
+
+def _on_the_way(one: GuidedLinkage) -> Real | None:
+    """Return the crank's angles from pose to pose; None where it cannot pass them in their order."""
+    return None if one.defects else np.unwrap(one.angles)
 
 
 def task_of(

@@ -16,6 +16,7 @@ from linkanim.errors import BadInput
 from linkanim.intake import meant
 from linkanim.synthesis.answers import Fit, checked_again, cognates_of
 from linkanim.synthesis.curves import DrawnCurve, drawn
+from linkanim.synthesis.drivers import Motor, all_driven, place_of
 from linkanim.synthesis.fitting import EXACTLY, PathTask
 from linkanim.synthesis.front import (
     PREFERENCES,
@@ -61,6 +62,7 @@ def path(
     prefer: Preference = "balanced",
     cognates: bool = False,
     rounding: float | None = None,
+    driver: Motor = False,
     progress: Callable[[int, int], None] | None = None,
     **options: object,
 ) -> tuple[Fit, ...]:
@@ -75,15 +77,19 @@ def path(
 
     `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same options; an
     answer that is a cognate of one before it is not listed again.
-    `rounding` rounds the lengths to that step one by one, each time fitting the rest again. Other options are
-    described below. BadInput for points or limits that make no sense, and if no linkage was found that keeps
-    to the limits.
+    `rounding` rounds the lengths to that step one by one, each time fitting the rest again. `driver` gives
+    each answer to an open curve whose crank swings a motor that turns fully, or says where that stands, x and
+    y. Other options are described below. BadInput for points or limits that make no sense, and if no linkage
+    was found that keeps to the limits.
     """
     refuse_count(count)
     if cognates and options.get("kind", "four-bar") != "four-bar":
         raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
     if prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {', '.join(PREFERENCES[:-1])} or {PREFERENCES[-1]}")
+    place = place_of(driver)
+    if driver is not False and closed:
+        raise BadInput("along a closed curve every crank turns fully, so it needs no driver; leave that out")
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
     if rounding is not None and not (can_be_computed(rounding) and rounding > 0):
         raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
@@ -104,7 +110,13 @@ def path(
     listed = [replace(fit, most_exact=best or fit) for fit in found if fit]
     if not listed:
         raise BadInput(none_fits(task))
-    return with_cognates_marked(listed)
+    listed = list(with_cognates_marked(listed))
+    return tuple(listed) if driver is False else all_driven(listed, place, _on_the_way)
+
+
+def _on_the_way(fit: Fit) -> Real | None:
+    """Return the crank's angles from point to point; None where it passes its limits on the way."""
+    return fit.angles if fit.phases is None else None
 
 
 def front_behind(fits: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ...]:

@@ -131,3 +131,21 @@ def test_bad_input_is_one_line(
 def test_a_pivot_left_of_the_origin_is_no_option(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (row,) = printed_json(capsys, "lid.csv", "--pivots", "10,-20", "-5,30.5")
     assert {row["parameters"]["x"], row["parameters"]["x4"]} == {-5.0, 10.0}
+
+
+@pytest.mark.parametrize("words", [["--driver"], ["--motor", "150,-60"]])
+def test_an_answer_whose_crank_swings_runs_from_a_motor(
+    words: list[str], here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = printed_json(capsys, "lid.csv", "--kind", "slider-crank", *words)
+    some = [row for row in found if "driver" in row]
+    assert some
+    for row in some:
+        scene, driver = linkanim.load(here / row["file"]), row["driver"]
+        assert scene.info.full_turn
+        assert "--motor" not in words or driver["motor"] == [150, -60]
+        assert scene.solve(phase=0.0).position["O6"].tolist() == driver["motor"]
+        there = scene.solve(phase=row["phases"], derivatives=0).position["P"]
+        assert there == pytest.approx(np.array(POSES)[:, :2], abs=1e-9)
+    assert main(["guide", "lid.csv", "--kind", "slider-crank", *words]) == 0
+    assert "  driven  " in capsys.readouterr().out

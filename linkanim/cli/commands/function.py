@@ -9,7 +9,7 @@ from pathlib import Path
 
 from linkanim import units
 from linkanim.atomic_files import checked_target
-from linkanim.cli.answers import deliver, target_of
+from linkanim.cli.answers import deliver, motor_of, target_of
 from linkanim.cli.options import bounded
 from linkanim.errors import BadInput
 from linkanim.intake import Intake, named, read_numbers
@@ -46,6 +46,7 @@ def run(options: Namespace) -> None:
         level=not options.chebyshev,
         prefer=options.prefer,
         pairs=options.pairs,
+        driver=motor_of(options),
         **_scale("input", options.input, units.angle),
         **_scale("output", options.output, _length if sliding else units.angle),
         name=target.stem,
@@ -149,4 +150,5 @@ def _object(one: Generated) -> dict[str, object]:
         "largest_link": one.size,
         "class": one.class_name,
         "parameters": {"kind": one.task.kind.name, **one.parameters},
+        **({"driver": one.driver.plain} if one.driver else {}),
     }

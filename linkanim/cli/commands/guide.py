@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.cli.answers import deliver, target_of
+from linkanim.cli.answers import deliver, motor_of, target_of
 from linkanim.errors import BadInput
 from linkanim.intake import named
 from linkanim.synthesis.burmester import MOST
@@ -31,6 +31,7 @@ def run(options: Namespace) -> None:
     poses = _poses(options.poses)
     target = target_of(options.output, f"{options.poses.stem}.toml", options.count)
     handed: dict[str, Any] = {name: getattr(options, name) for name in _HANDED_ON}
+    handed["driver"] = motor_of(options)
     found = guide(poses, **handed, name=target.stem, source=f"linkanim guide for {named(options.poses.name)}")
     deliver(found, target, options, _TITLES, _cells, _object)
     _remark(found)
@@ -57,7 +58,9 @@ def _cells(one: GuidedLinkage) -> tuple[str, ...]:
 
 
 def _way(one: GuidedLinkage) -> str:
-    """Return "turns", or the angles between which the crank swings."""
+    """Return "turns", "driven", or the angles between which the crank swings."""
+    if one.driver:
+        return "driven"
     if one.scene.info.full_turn:
         return "turns"
     first, last = (significant(math.degrees(angle), 4) for angle in one.scene.info.input_range)
@@ -78,6 +81,7 @@ def _object(one: GuidedLinkage) -> dict[str, object]:
         "angles": one.angles.tolist(),
         "phases": one.phases.tolist(),
         "parameters": {"kind": one.task.kind.name, **one.parameters, "closure": one.closure},
+        **({"driver": one.driver.plain} if one.driver else {}),
     }
 
 

@@ -11,7 +11,7 @@ from itertools import count
 from numpy.typing import ArrayLike
 
 from linkanim.atomic_files import checked_target, write_text
-from linkanim.cli.answers import deliver, target_of
+from linkanim.cli.answers import deliver, motor_of, target_of
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.export import csv_head, csv_rows
@@ -45,6 +45,7 @@ def run(options: Namespace) -> None:
             not options.open,
             timing=_timing(options.timing, curve, named(options.curve)),
             rounding=options.round,
+            driver=motor_of(options),
             **{name: getattr(options, name) for name in _HANDED_ON},
             name=target.stem,
             source=f"linkanim path for {named(options.curve.name)}",
@@ -97,6 +98,7 @@ def _object(fit: Fit) -> dict[str, object]:
         "full_turn": fit.scene.info.full_turn,
         "cognate": fit.cognate,
         "parameters": {"kind": fit.task.kind.name, **fit.parameters, "closure": fit.closure},
+        **({"driver": fit.driver.plain} if fit.driver else {}),
     }
     if fit.exact is not None:
         found["rms_before_rounding"] = fit.exact.rms
