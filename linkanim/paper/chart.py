@@ -11,12 +11,11 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-import pygame
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
-from linkanim.paper.illustration import page_pen, page_surface
+from linkanim.paper.illustration import DrawnPage
 from linkanim.paper.sentences import about, without_subscripts
 from linkanim.picture.chart import (
     Pen,
@@ -32,8 +31,7 @@ from linkanim.picture.chart import (
     without_values,
     x_title,
 )
-from linkanim.picture.items import Caption, Group, Halo, Item, grouped
-from linkanim.picture.look import ThemeName
+from linkanim.picture.items import Caption, Halo, Item
 from linkanim.picture.placing import Alternatives, chosen, crossed, grounded
 from linkanim.picture.quantities import Axis, linear, range_around, zeros_level
 from linkanim.picture.raster import Colour, Layer
@@ -257,32 +255,19 @@ _LINE, _LIFT = 1.5, 0.2
 
 
 @frozen
-class Page:
+class Page(DrawnPage):
     """A chart on a page of its size in pixels."""
 
     curves: Curves
-    size: tuple[int, int]
-    theme: ThemeName = "light"
     measured: MeasuredCurve | None = None
-    type_scale: float = 1.0
-    ground: bool = True
     brief: bool = False
     """Whether it is small, beside words that say the rest: no title, only symbols, one curve's extremes."""
 
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        pen = page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
+        pen = super().pen
         return replace(pen, line=max(pen.line, _THINNEST)) if self.brief else pen
-
-    @property
-    def background(self) -> Colour | None:
-        """The colour under everything; None where it is left open."""
-        return self.pen.theme.background if self.ground else None
-
-    def surface(self) -> pygame.Surface:
-        """Return the chart drawn."""
-        return page_surface(self.size, self.background, self.groups(), self.pen.type)
 
     @property
     def title(self) -> str:
@@ -299,10 +284,6 @@ class Page:
         """Return the curves as a table."""
         names, columns = table(self.curves)
         return csv_head(names) + csv_rows(columns)
-
-    def groups(self) -> tuple[Group, ...]:
-        """Return everything on the page, words over shapes."""
-        return (grouped("chart", self.items()),)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""

@@ -8,20 +8,18 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-import pygame
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.paper.illustration import page_pen, page_surface
-from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, line_layer, plot_area, x_title
+from linkanim.paper.illustration import DrawnPage
+from linkanim.picture.chart import Plot, axes, curve_layer, dot, line_layer, plot_area, x_title
 from linkanim.picture.constructed import clear_phase, linkage_marks, steps_of, title_of, usual_kind
 from linkanim.picture.construction import box_of, construction_items, view_of
-from linkanim.picture.items import Caption, Group, Item, grouped
-from linkanim.picture.look import ConstructionKind, ThemeName
-from linkanim.picture.purpose import USUAL_SIZE
+from linkanim.picture.items import Caption, Item
+from linkanim.picture.look import ConstructionKind
 from linkanim.picture.quantities import driven_words, linear, range_around
-from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import segments
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
@@ -37,7 +35,7 @@ _LINE = 1.35
 
 
 @frozen
-class ConstructionPage:
+class ConstructionPage(DrawnPage):
     """The first steps of a scene's construction, all where `steps` is None; `size` is in pixels.
 
     Without a `kind` it is the first that the scene has. Instant centres are those at `phase` (rad); without
@@ -45,13 +43,9 @@ class ConstructionPage:
     """
 
     scene: Scene
-    size: tuple[int, int] = USUAL_SIZE
-    theme: ThemeName = "light"
     steps: int | None = None
     kind: ConstructionKind | None = None
     phase: float | None = None
-    type_scale: float = 1.0
-    ground: bool = True
 
     @property
     def _kind(self) -> ConstructionKind:
@@ -71,16 +65,6 @@ class ConstructionPage:
     def _phase(self) -> float:
         return clear_phase(self.scene) if self.phase is None else self.phase
 
-    @cached_property
-    def pen(self) -> Pen:
-        """What it is drawn with."""
-        return page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
-
-    @property
-    def background(self) -> Colour | None:
-        """The colour under everything; None where it is left open."""
-        return self.pen.theme.background if self.ground else None
-
     @property
     def title(self) -> str:
         """What it shows, in words."""
@@ -90,19 +74,6 @@ class ConstructionPage:
         value = coordinate % math.tau if self.scene.info.full_turn else coordinate
         where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
         return f"{title_of(self.scene, self._kind)} at {where}"
-
-    @property
-    def words(self) -> str:
-        """Nothing: its steps are in the worked solution."""
-        return ""
-
-    def surface(self) -> pygame.Surface:
-        """Return the figure drawn."""
-        return page_surface(self.size, self.background, self.groups(), self.pen.type)
-
-    def groups(self) -> tuple[Group, ...]:
-        """Return everything on the page, words over shapes."""
-        return (grouped("construction", self.items()),)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front; a step has the same place however many are shown."""
@@ -151,32 +122,15 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @frozen
-class ErrorChart:
+class ErrorChart(DrawnPage):
     """A chart of the structural error of a linkage over x; `size` is in pixels."""
 
     shown: Generated
-    size: tuple[int, int] = USUAL_SIZE
-    theme: ThemeName = "light"
-
-    @cached_property
-    def pen(self) -> Pen:
-        """What it is drawn with."""
-        return page_pen(self.size, self.theme)
-
-    @property
-    def background(self) -> Colour:
-        """The colour under everything."""
-        return self.pen.theme.background
 
     @property
     def title(self) -> str:
         """What it shows, in words."""
         return f"Structural error of {self.shown.task.function.words}, {self.shown.task.kind.name}"
-
-    @property
-    def words(self) -> str:
-        """Nothing more than its title says."""
-        return ""
 
     @cached_property
     def curve(self) -> tuple[Real, Real]:
@@ -189,14 +143,6 @@ class ErrorChart:
         """Return the curve as a table: x, the function, the error."""
         x, errors = self.curve
         return csv_head(["x", "y", "error"]) + csv_rows([x, self.shown.task.function(x), errors])
-
-    def surface(self) -> pygame.Surface:
-        """Return the chart drawn."""
-        return page_surface(self.size, self.background, self.groups(), self.pen.type)
-
-    def groups(self) -> tuple[Group, ...]:
-        """Return everything on the page, words over shapes."""
-        return (grouped("chart", self.items()),)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""

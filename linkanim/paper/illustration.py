@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from functools import cached_property
 
 import pygame
 
-from linkanim.frozen import NamedTuple
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.chart import Pen, pen_for
-from linkanim.picture.items import Group
+from linkanim.picture.items import Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
+from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type
@@ -32,6 +34,43 @@ def page_surface(
         surface.fill(background)
     printed(surface, groups, type_)
     return surface
+
+
+@frozen(kw_only=True)
+class DrawnPage:
+    """A page of items, `size` pixels large, its words `type_scale` times so; without `ground` it is open."""
+
+    size: tuple[int, int] = USUAL_SIZE
+    theme: ThemeName = "light"
+    type_scale: float = 1.0
+    ground: bool = True
+
+    @cached_property
+    def pen(self) -> Pen:
+        """What it is drawn with."""
+        return page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
+
+    @property
+    def background(self) -> Colour | None:
+        """The colour under everything; None where it is left open."""
+        return self.pen.theme.background if self.ground else None
+
+    @property
+    def words(self) -> str:
+        """What is seen in it beside its title; nothing, where a kind of page does not say."""
+        return ""
+
+    def items(self) -> Iterator[Item]:
+        """Yield everything on the page, back to front."""
+        raise NotImplementedError
+
+    def groups(self) -> tuple[Group, ...]:
+        """Return everything on the page as one group, words over shapes."""
+        return (grouped("page", self.items()),)
+
+    def surface(self) -> pygame.Surface:
+        """Return the page drawn."""
+        return page_surface(self.size, self.background, self.groups(), self.pen.type)
 
 
 class Illustration(NamedTuple):

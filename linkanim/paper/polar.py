@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-import pygame
 from numpy.typing import NDArray
 
 from linkanim.errors import BadInput
@@ -16,11 +15,9 @@ from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.quantities import Quantity, input_symbol
 from linkanim.paper.curves import Pace
-from linkanim.paper.illustration import page_pen, page_surface
-from linkanim.picture.chart import Pen, Plot, axes, dot, line_layer, x_title
-from linkanim.picture.items import Caption, Group, Halo, Item, grouped
-from linkanim.picture.look import ThemeName
-from linkanim.picture.purpose import USUAL_SIZE
+from linkanim.paper.illustration import DrawnPage
+from linkanim.picture.chart import Plot, axes, dot, line_layer, x_title
+from linkanim.picture.items import Caption, Halo, Item
 from linkanim.picture.quantities import Axis, driven_words, linear, quantity, range_around
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, segments
@@ -30,7 +27,8 @@ from linkanim.units import stepped
 
 _SAMPLES, _EVERY = 720, 60
 """How many points a curve has for each turn of the drive, and how many from one dot to the next: 30°."""
-_ROOM = 0.1
+_ROOM, _NARROWEST = 0.1, 0.6
+"""The room about the curves, in shares of their extent, and the least width, in shares of the height."""
 _NAMED = 3
 """Every so many dots one has its angle beside it."""
 _DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0))
@@ -47,26 +45,12 @@ class _Head(NamedTuple):
 
 
 @frozen
-class PolarPage:
+class PolarPage(DrawnPage):
     """A polar diagram of a vector quantity over one true period; `size` is in pixels."""
 
     scene: Scene
     token: str
     paces: tuple[Pace, ...]
-    size: tuple[int, int] = USUAL_SIZE
-    theme: ThemeName = "light"
-    type_scale: float = 1.0
-    ground: bool = True
-
-    @cached_property
-    def pen(self) -> Pen:
-        """What it is drawn with."""
-        return page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
-
-    @property
-    def background(self) -> Colour | None:
-        """The colour under everything; None where it is left open."""
-        return self.pen.theme.background if self.ground else None
 
     @cached_property
     def known(self) -> tuple[Quantity, Quantity, Quantity]:
@@ -122,14 +106,6 @@ class PolarPage:
             columns += [head.x, head.y]
         return csv_head(names) + csv_rows(columns)
 
-    def surface(self) -> pygame.Surface:
-        """Return the diagram drawn."""
-        return page_surface(self.size, self.background, self.groups(), self.pen.type)
-
-    def groups(self) -> tuple[Group, ...]:
-        """Return everything on the page, words over shapes."""
-        return (grouped("polar", self.items()),)
-
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
         pen, theme = self.pen, self.pen.theme
@@ -166,6 +142,8 @@ class PolarPage:
         spans = [high - low for low, high in ranges]
         scale = min(area.width / spans[0], area.height / spans[1])
         found = []
+        wide = min(area.width, max(scale * spans[0], _NARROWEST * area.height))
+        area = area._replace(x=area.x + (area.width - wide) / 2, width=wide)
         for (low, high), room in zip(ranges, (area.width, area.height), strict=True):
             more = (room / scale - (high - low)) / 2
             found.append((low - more, high + more))
@@ -204,15 +182,22 @@ class PolarPage:
         pen = self.pen
         middle = complex(np.mean(places[np.isfinite(places)]))
         coordinate = np.asarray(self.paces[0].motion(self.scene, self.phases).coordinate)
+        taken: list[Rect] = []
         for k in marks:
             at = complex(places[k])
-            way = (at - middle) / abs(at - middle) if at != middle else 1.0
+            across = 1j * complex(places[(k + 1) % len(places)] - places[k - 1])
+            away = across.real * (at - middle).real + across.imag * (at - middle).imag
+            way = math.copysign(1.0, away) * across / abs(across) if across and np.isfinite(across) else 1.0
             value = float(coordinate[k]) % math.tau if self.scene.info.full_turn else float(coordinate[k])
-            words = driven_words(self.scene, value)
+            words = driven_words(self.scene, value).replace(".0°", "°")
             wide = pen.type.width(words, pen.small)
             spot = at + way * (0.9 * pen.small) + complex(way.real * wide / 2, 0.0)
             halo = Halo(pen.theme.background, 0.2 * pen.small)
             corner = (spot.real, spot.imag - 0.5 * pen.small)
+            box = Rect(corner[0] - wide / 2, corner[1], wide, pen.small)
+            if any(box.meets(other) for other in taken):
+                continue  # near the origin angles crowd, and those beside them say which way they go
+            taken.append(box)
             yield Caption(words, corner, pen.small, pen.theme.ink, "centre", halo=halo)
 
     def _largest(self, head: _Head) -> tuple[int | None, str]:

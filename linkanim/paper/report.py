@@ -192,7 +192,7 @@ class Report:
         self._begin()
         order, paces = self.scene.quantities[tokens[0]].order, paces_of(self.scene, tokens[0], self.paces)
         curves, size = within_a_turn(curves_of(self.scene, tokens, paces)), _BROAD_CHART if broad else _CHART
-        drawn = Page(curves, size, brief=True)
+        drawn = Page(curves, size=size, brief=True)
         picture = svg(size, drawn.background, drawn.groups(), title=caption)
         at = f", at {paces[0].words}" if order and len(paces) == 1 else ""
         return tokens, FigurePart(picture, f"{caption}{at}", words=about(curves), broad=broad)
@@ -331,7 +331,7 @@ class Report:
             pace = self.polygon_pace or self.paces[0]
             curves, measured = compared(self.scene, token, pace, given, self.label)
             words = self.scene.quantities[token].words
-            drawn = Page(curves, _CHART, brief=True, measured=measured)
+            drawn = Page(curves, size=_CHART, brief=True, measured=measured)
             worst = measured.worst
             unit = self.scene.quantities[token].shown_unit(self.scene.length_unit)
             off = f"{rounded(abs(float(measured.differences[worst])), 3)} {unit}".strip()

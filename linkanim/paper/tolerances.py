@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 
 import numpy as np
-import pygame
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
-from linkanim.paper.illustration import page_pen, page_surface
-from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, plot_area, x_title
-from linkanim.picture.items import Caption, Group, Item, grouped
-from linkanim.picture.look import ThemeName
-from linkanim.picture.purpose import USUAL_SIZE
+from linkanim.paper.illustration import DrawnPage
+from linkanim.picture.chart import Plot, axes, curve_layer, dot, plot_area, x_title
+from linkanim.picture.items import Caption, Item
 from linkanim.picture.quantities import linear
-from linkanim.picture.raster import Colour
 from linkanim.picture.view import Rect
 from linkanim.scenes.deviation import Off, Tolerance
 from linkanim.units import significant
@@ -27,22 +22,10 @@ _NAMED = 4
 
 
 @frozen
-class ToleranceChart:
+class ToleranceChart(DrawnPage):
     """A chart of how far the first quantity of a scene may be off, over a period; `size` is in pixels."""
 
     shown: Tolerance
-    size: tuple[int, int] = USUAL_SIZE
-    theme: ThemeName = "light"
-
-    @cached_property
-    def pen(self) -> Pen:
-        """What it is drawn with."""
-        return page_pen(self.size, self.theme)
-
-    @property
-    def background(self) -> Colour:
-        """The colour under everything."""
-        return self.pen.theme.background
 
     @property
     def off(self) -> Off:
@@ -81,14 +64,6 @@ class ToleranceChart:
         """Return the curves as a table: the phase in degrees, all lengths together, each alone."""
         names = ["phase_deg", "all", *self.shown.lengths]
         return csv_head(names) + csv_rows([np.degrees(self.off.phases), self.off.bound, *self.off.alone])
-
-    def surface(self) -> pygame.Surface:
-        """Return the chart drawn."""
-        return page_surface(self.size, self.background, self.groups(), self.pen.type)
-
-    def groups(self) -> tuple[Group, ...]:
-        """Return everything on the page, words over shapes."""
-        return (grouped("chart", self.items()),)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""

@@ -132,8 +132,8 @@ def tolerance(
     whole = len(names) + len(quantities)
     if not quantities or not solved_together(scene, names):
         raise BadInput(
-            f"{scene.name}: a tolerance is told of linkages of dyads that a motor drives, away from change "
-            "points and limits; those like this one would have to be read one by one"
+            f"{scene.name}: tolerances are worked out for chains of dyads that a turning crank drives, away from "
+            "change points and limits"
         )
 
     def pulse() -> None:

@@ -26,7 +26,7 @@ TOLD = re.compile(r"([−\d.]+)°? at ")
 
 def page_of(name: str, *tokens: str, size: tuple[int, int] = (960, 540), over: Over | None = None) -> Page:
     paces = tuple(Pace(speed, f"{speed:g} rad/s") for speed in SPEEDS)
-    return Page(curves_of(load(name), tokens, paces, over), size)
+    return Page(curves_of(load(name), tokens, paces, over), size=size)
 
 
 def box_of(page: Page, words: Caption) -> Rect:
@@ -138,7 +138,7 @@ def test_words_of_a_small_chart_lie_on_no_curve_and_its_axes_have_four_ticks(nam
     paces, found = (Pace(abs(scene.linkage.drive.speed), ""),), 0
     for charts in topics(Values(scene), paces).values():
         for tokens, _ in charts:
-            page = Page(curves_of(scene, tokens, paces), (400, 225), brief=True)
+            page = Page(curves_of(scene, tokens, paces), size=(400, 225), brief=True)
             items = list(page.items())
             boxes = [box_of(page, one) for one in items if isinstance(one, Caption) and TOLD.match(one.text)]
             curves = [
@@ -212,7 +212,7 @@ def test_an_extreme_is_told_where_it_stands_on_the_axis(
 ) -> None:
     found = load(scene)
     curves = curves_of(found, (token,), (Pace(found.linkage.drive.speed, ""),), over)
-    captions = {item.text for item in Page(curves, (960, 540)).items() if isinstance(item, Caption)}
+    captions = {item.text for item in Page(curves, size=(960, 540)).items() if isinstance(item, Caption)}
     assert said <= captions
 
 
@@ -225,7 +225,7 @@ def test_no_word_lies_on_a_measured_point(scene: str) -> None:
         NumberRow(n, (float(x), float(value)))
         for n, (x, value) in enumerate(zip(curve.x[:-1:12], curve.values[:-1:12], strict=True))
     )
-    page = Page(curves, (960, 540), measured=beside(curves, MeasuredTable("t", "", rows), "t"))
+    page = Page(curves, size=(960, 540), measured=beside(curves, MeasuredTable("t", "", rows), "t"))
     items = list(page.items())
     inner = [item for item in items if isinstance(item, Layer)][-1]
     dots = [complex(loop.mean()) for loop in inner.loops]

@@ -27,7 +27,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 def _page(name: str, *tokens: str, speeds: tuple[float, ...] = (5.0,), size: tuple[int, int] = SIZE) -> Page:
     paces = tuple(Pace(speed, f"{speed:g} rad/s") for speed in speeds)
-    return Page(curves_of(load(name), tokens, paces), size)
+    return Page(curves_of(load(name), tokens, paces), size=size)
 
 
 def _said(page: Page) -> list[str]:
@@ -306,7 +306,7 @@ def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> No
     assert found.differences == pytest.approx([0.0, 0.02, -0.05, 0.01])
     assert found.worst == 2
     assert [x for x, _ in found.points] == pytest.approx(angles)
-    shown = Page(page.curves, SIZE, measured=found)
+    shown = Page(page.curves, size=SIZE, measured=found)
     assert "measured" in _said(shown)
     dot, words = next(pair for pair in pairwise(shown.items()) if getattr(pair[1], "text", "") == "measured")
     assert isinstance(dot, Layer)

@@ -91,7 +91,7 @@ def test_a_chart_is_broken_at_infinities_and_its_range_leaves_them_out(
     curves = curves_of(load(scene), (token,), (Pace(1.0, ""),))
     (curve,) = curves.curves
     assert len(unbounded_places(curve.x, curve.values)) == count
-    page = Page(curves, (960, 540))
+    page = Page(curves, size=(960, 540))
     captions = [item.text for item in page.items() if isinstance(item, Caption)]
     assert not any("inf" in text.split() or "nan" in text for text in captions)
     assert ("at infinity throughout" in captions) == (not count)

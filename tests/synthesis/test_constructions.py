@@ -122,7 +122,7 @@ def test_freudenstein_s_numbers_lead_to_the_lengths() -> None:
 # Precision points that lie so close that their numbers find no room at them.
 @pytest.mark.parametrize(("text", "last", "kind"), [("log10(x)", 10, "four-bar"), ("1/x", 2, "slider-crank")])
 def test_numbers_of_close_precision_points_stand_free(text: str, last: float, kind: str) -> None:
-    page = ConstructionPage(linkanim.function(text, 1, last, kind=kind, count=1)[0].scene, (960, 640))
+    page = ConstructionPage(linkanim.function(text, 1, last, kind=kind, count=1)[0].scene, size=(960, 640))
     words = [item for item in page.items() if isinstance(item, Caption)]
     boxes = boxes_of(page, words)
     assert len(boxes) > 10
@@ -142,12 +142,12 @@ def test_each_construction_is_drawn_step_by_step(name: str) -> None:
     steps = construction(scene)
     before = 0
     for count in range(1, len(steps) + 1):
-        items = list(ConstructionPage(scene, (960, 640), steps=count).items())
+        items = list(ConstructionPage(scene, size=(960, 640), steps=count).items())
         assert len(items) > before
         before = len(items)
     words = [item for item in items if isinstance(item, Caption)]
     assert all(0 <= word.at[0] <= 960 and 0 <= word.at[1] <= 640 for word in words)
-    page = ConstructionPage(scene, (960, 640))
+    page = ConstructionPage(scene, size=(960, 640))
     boxes = boxes_of(page, words)
     met = sum(one.meets(other) for one, other in combinations(boxes, 2))
     assert met <= 0.1 * len(boxes)

@@ -372,7 +372,7 @@ def test_a_function_that_no_linkage_follows_is_said() -> None:
 def test_the_chart_has_the_curve_and_its_extremes(tmp_path: Path) -> None:
     sixty = 60 * DEGREE
     (found,) = linkanim.function("y = log10(x)", 1, 2, input_range=sixty, output_range=sixty, count=1)
-    chart = ErrorChart(found, (640, 360))
+    chart = ErrorChart(found, size=(640, 360))
     picture = data(chart, ".svg").decode()
     assert picture.count("1.84") >= 6
     assert "Structural error of y = log10(x)" in picture

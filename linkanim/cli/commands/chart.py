@@ -43,7 +43,12 @@ def run(options: Namespace) -> None:
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)
     page = Page(
-        curves, canvas.size, options.theme, measured, type_scale=canvas.type_scale, ground=canvas.ground
+        curves,
+        measured,
+        size=canvas.size,
+        theme=options.theme,
+        type_scale=canvas.type_scale,
+        ground=canvas.ground,
     )
     told = alternative(options)
     write(page, target, latex=bool(options.text), wide=canvas.wide)
@@ -65,8 +70,8 @@ def _polar(scene: Scene, canvas: Canvas, target: Output, options: Namespace) -> 
         scene,
         options.quantity.strip(),
         paces(scene, options),
-        canvas.size,
-        options.theme,
+        size=canvas.size,
+        theme=options.theme,
         type_scale=canvas.type_scale,
         ground=canvas.ground,
     )

@@ -32,7 +32,14 @@ def run(options: Namespace) -> None:
 
         kind, steps = options.construction
         page = ConstructionPage(
-            scene, size, look.theme, steps, kind, phase, canvas.type_scale, ground=canvas.ground
+            scene,
+            steps,
+            kind,
+            phase,
+            size=size,
+            theme=look.theme,
+            type_scale=canvas.type_scale,
+            ground=canvas.ground,
         )
         _write(page, target, canvas, latex=bool(options.text))
         told(page.title)

@@ -92,7 +92,7 @@ def _free(found: Solution) -> str:
 
 
 def _construction(found: Solution) -> str:
-    page = ConstructionPage(found.request.scene, _CONSTRUCTION)
+    page = ConstructionPage(found.request.scene, size=_CONSTRUCTION)
     drawn = svg(page.size, None, page.groups(), title=page.title)
     return f"<figure class='vectors'>{embedded(drawn, page.title)}</figure>"
 
