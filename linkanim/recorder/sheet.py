@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import pygame
-
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import NOTHING_OVER
 from linkanim.picture.picture import Picture
@@ -47,10 +45,15 @@ class SheetFrames:
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, which the next call overwrites."""
-        return pixel_view(self.at([scene.period * frame / self._frames for scene, _ in self._tiles]))
+        self._paint([scene.period * frame / self._frames for scene, _ in self._tiles])
+        return pixel_view(self._surface)
 
-    def at(self, phases: Sequence[float]) -> pygame.Surface:
-        """Return the picture in which each scene is at its phase; the next call overwrites it."""
+    def png(self, phases: Sequence[float]) -> bytes:
+        """Return a PNG in which each scene is at its phase."""
+        self._paint(phases)
+        return png_bytes(self._surface)
+
+    def _paint(self, phases: Sequence[float]) -> None:
         self._surface.fill(self._theme.rule)
         for number, ((scene, picture), phase) in enumerate(zip(self._tiles, phases, strict=True)):
             row, column = divmod(number, self._columns)
@@ -60,7 +63,6 @@ class SheetFrames:
             self._surface.blit(self._tile, (left, top + _HEAD))
             at, ink = (left + 8, top + 4), self._theme.ink
             self._type.draw(self._surface, f"{number + 1}", at, size=_NUMBER, colour=ink, strong=True)
-        return self._surface
 
 
 def record_sheet(scenes: Sequence[Scene], path: Target, progress: Progress | None = None) -> Recording:
@@ -73,4 +75,4 @@ def record_sheet(scenes: Sequence[Scene], path: Target, progress: Progress | Non
 
 def still_sheet(scenes: Sequence[Scene]) -> bytes:
     """Return a PNG of scenes side by side, each in the pose that reads best."""
-    return png_bytes(SheetFrames(scenes, 1, Look(hud=False)).at([still_phase(scene) for scene in scenes]))
+    return SheetFrames(scenes, 1, Look(hud=False)).png([still_phase(scene) for scene in scenes])

@@ -132,8 +132,8 @@ def tolerance(
     whole = len(names) + len(quantities)
     if not quantities or not solved_together(scene, names):
         raise BadInput(
-            f"{scene.name}: tolerances are worked out for chains of dyads that a turning crank drives, away from "
-            "change points and limits"
+            f"{scene.name}: tolerances are worked out for chains of dyads that a turning crank drives, away "
+            "from change points and limits"
         )
 
     def pulse() -> None:

@@ -144,7 +144,7 @@ def test_pins_are_off_from_the_input_s_own_and_masses_are_no_lengths() -> None:
 
 @pytest.mark.parametrize("name", ["driven-piston", "elliptic-trammel", "toggle-press"])
 def test_linkages_that_would_be_read_one_by_one_are_refused(name: str) -> None:
-    with pytest.raises(BadInput, match=f"{name}: a tolerance is told of linkages of dyads that a motor"):
+    with pytest.raises(BadInput, match=f"{name}: tolerances are worked out for chains of dyads"):
         tolerance(name, 0.05)
 
 
