@@ -774,6 +774,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output("write LINKAGE.html (default: SCENE.html in this folder)"),
         _value("--all DIR", Path, "write every built-in scene, and an index of them, to this folder"),
         _SPEED,
+        _STATIC,
         _look("share"),
         _usually(theme=None),
     ),

@@ -386,6 +386,11 @@ class Arrows:
     order: int
     resting: float = 0.0
 
+    @property
+    def longest_drawn(self) -> float:
+        """The length in pixels beyond which an arrow is not drawn: its value grows without bound."""
+        return _MOST_LONGEST[self.kind] * self.longest
+
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second, or newton, at this input speed (rad/s of phase).
 
@@ -405,7 +410,7 @@ class Arrows:
         for symbol, place, value in _values(motion, self.kind, joints):
             reach = scale * np.atleast_2d(value)
             with np.errstate(invalid="ignore"):
-                drawn = np.hypot(reach[:, :1], reach[:, 1:]) <= _MOST_LONGEST[self.kind] * self.longest
+                drawn = np.hypot(reach[:, :1], reach[:, 1:]) <= self.longest_drawn
             yield symbol, place, np.where(drawn, reach, 0.0) if self.kind == FORCE else reach
 
     def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[SeenArrow]:
@@ -415,8 +420,7 @@ class Arrows:
             SeenArrow(symbol, view.place(place), complex(scale * x, -scale * y))
             for symbol, place, (x, y) in _values(pose, self.kind, joints)
         ]
-        most = _MOST_LONGEST[self.kind]
-        return [arrow for arrow in found if 0.01 < abs(arrow.reach) / self.longest < most]
+        return [arrow for arrow in found if 0.01 * self.longest < abs(arrow.reach) < self.longest_drawn]
 
 
 def arrow_layers(
@@ -444,15 +448,25 @@ def arrow_layers(
 def _values(motion: Motion | Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:
     """Return the symbol of each arrow, where it begins, and its value."""
     if kind == FORCE:
-        return list(_pulls(motion))
+        return [(one.symbol, one.place, one.value) for one in pulls(motion)]
     values, of_mass = _rates(motion, kind)
     at_joints = [(indexed(kind, joint), motion.position[joint], values[joint]) for joint in joints]
     masses = ((indexed(kind, f"G {body}"), motion.com_position[body], one) for body, one in of_mass.items())
     return [*at_joints, *masses]
 
 
-def _pulls(motion: Motion | Pose) -> Iterator[tuple[str, Any, Any]]:
-    """Yield the forces of joints and guides and the loads, as `_values` does: each on one of its two bodies.
+class Pull(NamedTuple):
+    """A force on a body: its symbol, where it begins, its value (N), the joint that is there, if one is."""
+
+    symbol: str
+    place: Any
+    value: Any
+    body: str
+    joint: str
+
+
+def pulls(motion: Motion | Pose) -> Iterator[Pull]:
+    """Yield the forces of joints and guides and the loads, each on one of its two bodies.
 
     It is the one that moves, or of two the one that was solved for later; where more meet, each has its own.
     """
@@ -464,22 +478,20 @@ def _pulls(motion: Motion | Pose) -> Iterator[tuple[str, Any, Any]]:
     for joint, bodies in motion.reaction.items():
         moving = [body for body in bodies if body != GROUND]
         for body in moving[:1] if len(moving) == 2 else moving:
-            yield indexed("F", f"{joint},{labels.get(body, body)}"), motion.position[joint], bodies[body]
+            symbol = indexed("F", f"{joint},{labels.get(body, body)}")
+            yield Pull(symbol, motion.position[joint], bodies[body], body, joint)
     for joint, name in zip(linkage.slides, guided(linkage), strict=True):
         u, v = line_direction(motion, linkage.slides[joint].line)
         with np.errstate(invalid="ignore"):  # a force without bound
             size = motion.reactions.guides[name].force
             force = vector((-v * size, u * size))
-        yield indexed("N", labels.get(name, name)), motion.position[joint], force
+        yield Pull(indexed("N", labels.get(name, name)), motion.position[joint], force, name, joint)
     for load in linkage.loads:
         carrier = linkage.body(load.on)
         (dx, dy), force = loaded(motion, load)
         x, y = components(motion.position[carrier.slider or carrier.joints[0]])
-        yield (
-            indexed("P", load.name),
-            vector((x + dx, y + dy)),
-            vector(tuple(0.0 * x + part for part in force)),
-        )
+        place, value = vector((x + dx, y + dy)), vector(tuple(0.0 * x + part for part in force))
+        yield Pull(indexed("P", load.name), place, value, load.on, carrier.slider or load.joint)
 
 
 def plain(symbol: str) -> str:

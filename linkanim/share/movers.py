@@ -79,9 +79,22 @@ class Pairs:
     def elements(self, light: Iterable[Item], dark: Iterable[Item]) -> str:
         """Return the same items, described in both themes, as SVG."""
         coded = [self._coded(*pair) for pair in zip(light, dark, strict=True)]
-        return "".join(
-            map(_shorter, drawn(coded, lambda colour: f"var(--c{int.from_bytes(colour)})", fixed=False))
-        )
+        return "".join(map(_shorter, drawn(coded, _coloured, fixed=False)))
+
+    def outlined(self, light: Sequence[Layer], dark: Sequence[Layer]) -> str:
+        """Return layers as `elements` does; a line along all of a layer's outlines is a stroke of them.
+
+        So the outline of a gear's teeth is held once, and not three times.
+        """
+        layers, found = [*zip(light, dark, strict=True)], list[str]()
+        while layers:
+            one, other = layers.pop(0)
+            shapes = self.elements([one], [other])
+            if layers and (wide := _width_along(one, layers[0][0])):
+                line = _coloured(self._coded(*layers.pop(0)).colour)
+                shapes = f'{shapes.removesuffix("/>")} stroke="{line}" stroke-width="{wide:.3g}"/>'
+            found.append(shapes)
+        return "".join(found)
 
     def styles(self, themes: tuple[ThemeName, ThemeName], stated: ThemeName | None) -> str:
         """Return the style sheet of the colours, ink and background among them by their names.
@@ -122,6 +135,23 @@ class Pairs:
     def _code(self, light: Colour, dark: Colour) -> Colour:
         red, green, blue = self._number(light, dark).to_bytes(3)
         return red, green, blue
+
+
+def _coloured(colour: Colour) -> str:
+    """Return a pair, by its number, as a style's value."""
+    return f"var(--c{int.from_bytes(colour)})"
+
+
+def _width_along(layer: Layer, line: Layer) -> float | None:
+    """Return how wide a line is that runs along all of a layer's outlines and nothing else; else None."""
+    sides = [*zip(line.loops[::2], line.loops[1::2], strict=False)]
+    if not sides or len(line.loops) != 2 * len(layer.loops):
+        return None
+    for loop, (one, other) in zip(layer.loops, sides, strict=True):
+        middle = 0.5 * (one + other[::-1]) if len(one) == len(other) == len(loop) else np.inf
+        if not np.allclose(middle, loop, rtol=0.0, atol=1e-6):
+            return None
+    return min(float(np.abs(one - other[::-1]).min()) for one, other in sides)
 
 
 def _shorter(element: str) -> str:
@@ -361,6 +391,8 @@ class Mobile:
     light: Picture
     dark: Picture
     pairs: Pairs
+    forces: Mover | None = None
+    """The data of the arrows of forces."""
 
     @cached_property
     def _places(self) -> Places:
@@ -390,6 +422,8 @@ class Mobile:
                     put = (Part(at, at, at, some.layers) for some in (stamp, dark))
                     yield self._part(*put)
                 yield from (Movable("", self._arrows(kind)) for kind in _KINDS)
+                if self.forces:
+                    yield Movable("", self.forces)
             case Names(), Names():
                 yield from self._names()
             case dict() as lines, dict() as darks if self.light.names:
@@ -407,7 +441,8 @@ class Mobile:
                     yield Movable(shapes, {"kind": "given"} if one.name in _STATED else None)
 
     def _part(self, light: Part, dark: Part) -> Movable:
-        shapes = self.pairs.elements(light.layers, dark.layers)
+        described = self.pairs.outlined if light.sized else self.pairs.elements
+        shapes = described(light.layers, dark.layers)
         mover = {"kind": "part", "at": light.at, "tail": light.tail, "head": light.head, **self._form(light)}
         link = self.light.scene.info.link_names.get(light.name)
         mover |= {"link": link} if link else {}
@@ -531,9 +566,22 @@ class Mobile:
         gain = light.scale(light.drive) * abs(light.drive) ** order / self.light.view.scale
         colours = self.pairs.variables((light.colour, light.halo), (dark.colour, dark.halo))
         feet = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
-        line = {"longest": light.longest, "line": light.gauge.line, "colours": colours}
-        line |= {"words": light.words, "unit": light.unit}
-        return {"kind": "arrows", "order": order, "at": feet, "gain": gain, **line}
+        size = {"longest": light.longest, "drawn": light.longest_drawn, "line": light.gauge.line}
+        said = {"colours": colours, "words": light.words, "unit": light.unit}
+        return {"kind": "arrows", "order": order, "at": feet, "gain": gain, **size, **said}
+
+
+def shares_of(picture: Picture, body: str, place: tuple[float, float]) -> tuple[str, str, list[float]]:
+    """Return a body's place at the start by two joints, as shares of the way between them and to its right.
+
+    Of a body with one joint they are alike, and the place is so many pixels off.
+    """
+    pose, found = picture.scene.pose(0.0, 0), picture.scene.linkage.body(body)
+    joints = found.joints or (str(found.slider),)
+    ends = [picture.view.place(pose.position[name]) for name in joints]
+    off = picture.view.place(place) - ends[0]
+    share = off / (ends[1] - ends[0]) if len(ends) > 1 else off
+    return joints[0], joints[min(1, len(ends) - 1)], _pair(share)
 
 
 def _placed(label: Label, scale: float) -> Mover:

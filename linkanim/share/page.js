@@ -13,7 +13,7 @@
   const minus = (text) => text.replaceAll("-", "−");
   const short = (x) => minus(String(Number(x.toPrecision(4))));
 
-  const NUMBERS = { u1: Uint8Array, u2: Uint16Array, i4: Int32Array, f4: Float32Array, f8: Float64Array };
+  const NUMBERS = { u1: Uint8Array, u2: Uint16Array, i2: Int16Array, i4: Int32Array, f4: Float32Array, f8: Float64Array };
   function unpacked(text, kind = "f4") {
     const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new NUMBERS[kind](bytes.buffer);
@@ -112,7 +112,7 @@
   const motionIsFine = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   const state = {
     phase: 0, playing: motionIsFine, pace: 1, way: 1, side: 0, last: 1,
-    trace: true, velocity: false, acceleration: false, names: true, pointer: null, held: null,
+    trace: true, velocity: false, acceleration: false, force: false, names: true, pointer: null, held: null,
     values: false, curves: false,
   };
   const speed = () => page.speed * state.way;
@@ -301,9 +301,9 @@
         const { shown, of } = arrowsOf(mover);
         group.classList.toggle("off", !shown);
         if (!shown) return;
-        at.forEach((name, n) => {
-          const { p, reach, seen } = of(pose(name));
-          put(paths[n], "d", seen ? arrow(p, reach, width) : "");
+        paths.forEach((path, n) => {
+          const { p, reach, seen } = of(n, pose, state.phase);
+          put(path, "d", seen ? arrow(p, reach, width) : "");
         });
       };
     },
@@ -347,23 +347,45 @@
     },
   };
 
-  // Returns whether arrows of a kind are shown, and one's place and reach in a pose.
-  function arrowsOf({ order, gain, longest }) {
-    const shown = order === 1 ? state.velocity : state.acceleration;
-    const of = ({ p, v, a }) => {
-      const reach = order === 1 ? by(v, gain * Math.sign(speed())) : by(a, gain), long = size(reach);
-      return { p, reach, seen: long > 0.01 * longest && long < 100 * longest };
+  // Returns whether arrows of a kind are shown, and what gives the place and reach of one of them in a pose. Forces
+  // are known for the page's own lengths alone.
+  const ARROWS = ["force", "velocity", "acceleration"];
+  function arrowsOf(mover) {
+    const { at, order, gain, longest, drawn } = mover;
+    const shown = state[ARROWS[order]] && (order || !own?.on);
+    const of = (n, pose, phase) => {
+      const foot = order ? pose(at[n]) : { p: footOf(at[n], pose) };
+      const reach = order === 0 ? by(back(pulled(mover, n, phase)), mover.per) : by(order === 1 ? foot.v : foot.a, gain * (order === 1 ? Math.sign(speed()) : 1));
+      const long = size(reach);
+      return { p: foot.p, reach, seen: long > 0.01 * longest && long < drawn };
     };
     return { shown, of };
+  }
+
+  // Returns where a force acts: in a joint, or at a place of a body that two of its joints tell.
+  function footOf(at, pose) {
+    if (typeof at === "string") return pose(at).p;
+    const [one, other, share] = at, here = pose(one).p;
+    return add(here, one === other ? share : mul(share, sub(pose(other).p, here)));
+  }
+
+  // Returns a force at a phase in newtons, y up, as its table has it.
+  function pulled(mover, n, phase) {
+    const { grain, tables } = mover, table = tables[state.way < 0 ? tables.length - 1 : 0], count = table.length / grain.length / 2;
+    return [0, 1].map((axis) => {
+      const begin = (2 * n + axis) * count;
+      return grown(grain[n] * reading(table.subarray(begin, begin + count), mover, shareOf(phase)), mover, phase);
+    });
   }
 
   // Lays out the key to the arrows that are shown: one of each kind, and how much it stands for.
   function layKey() {
     byId("key").replaceChildren();
     const side = now();
+    if (state.force && own?.on) byId("key").appendChild(document.createElement("em")).textContent = "Forces are known for the page’s own lengths alone.";
     for (const mover of side.data.movers.filter((one) => one.kind === "arrows" && arrowsOf(one).shown)) {
       const { order, gain, line: thick, colours, words: named, unit: of } = mover;
-      const scale = gain * side.data.view[0] / Math.abs(speed()) ** order, most = KEY / (zoom * scale);
+      const scale = order ? gain * side.data.view[0] / Math.abs(speed()) ** order : mover.per, most = KEY / (zoom * scale);
       const power = 10 ** Math.floor(Math.log10(most)), value = power * [5, 2, 1].find((one) => one * power <= most * 1.0001);
       const long = value * scale, sample = byId("key").appendChild(document.createElementNS(SVG, "svg"));
       sample.setAttribute("viewBox", `0 ${-5 * thick} ${long} ${10 * thick}`);
@@ -406,6 +428,9 @@
     const charts = data.charts.map((chart) => ({
       ...chart, curves: chart.curves.map((curve) => ({ ...laid(curve), table: unpacked(curve.values, curve.kind) })),
     }));
+    for (const mover of data.movers.filter(({ values }) => values)) {
+      Object.assign(mover, laid(mover), { tables: mover.values.map((some) => Float64Array.from(unpacked(some, "i2"), (step) => step < -32767 ? NaN : step)) });
+    }
     return { data, tracks, group, groups, marked, rows, charts, moves: [] };
   });
   const now = () => sides[state.side];
@@ -463,9 +488,9 @@
   function arrange() {
     const side = now(), margin = 0.04 * side.box[0][1], phases = Array.from({ length: 60 }, (_, n) => n / 60 * periodNow());
     const shown = side.data.movers.filter((mover) => mover.kind === "arrows" && arrowsOf(mover).shown);
-    const heads = shown.flatMap((mover) => mover.at.flatMap((name) => phases.map((phase) => {
+    const heads = shown.flatMap((mover) => mover.at.flatMap((_, n) => phases.map((phase) => {
       // beside a dead centre arrows are longer than any picture
-      const { p, reach } = arrowsOf(mover).of(tracksNow().get(name).at(phase));
+      const { p, reach } = arrowsOf(mover).of(n, (name) => tracksNow().get(name).at(phase), phase);
       return add(p, by(reach, Math.min(1, 1.5 * mover.longest / size(reach) || 0)));
     })));
     const points = [...side.beyond, ...heads].filter((point) => point.every(Number.isFinite)), labels = side.data.movers.filter(({ kind, given }) => kind === "label" && !(given && own?.on));
@@ -900,14 +925,14 @@
     play: () => play(!state.playing), back: () => step(-1), forth: () => step(1), reverse,
     closure: () => showSide(state.side + 1), theme,
   };
-  for (const name of ["trace", "velocity", "acceleration", "names", "values", "curves"]) ACTIONS[name] = () => toggle(name);
+  for (const name of ["trace", "velocity", "acceleration", "force", "names", "values", "curves"]) ACTIONS[name] = () => toggle(name);
   for (const name in ACTIONS) byId(name).addEventListener("click", ACTIONS[name]);
   byId("pace").addEventListener("change", () => pace(0));
   byId("input").addEventListener("input", (event) => { pause(); moveTo(Number(event.target.value)); });
   byId("numbers").addEventListener("toggle", wake);
 
   const KEYS = {
-    " ": ACTIONS.play, d: reverse, b: ACTIONS.closure, t: ACTIONS.trace, v: ACTIONS.velocity, a: ACTIONS.acceleration,
+    " ": ACTIONS.play, d: reverse, b: ACTIONS.closure, t: ACTIONS.trace, v: ACTIONS.velocity, a: ACTIONS.acceleration, f: ACTIONS.force,
     n: ACTIONS.names, l: theme, r: () => moveTo(0), arrowup: () => pace(1), arrowdown: () => pace(-1),
   };
   document.addEventListener("keydown", (event) => {
@@ -924,7 +949,7 @@
   const hide = (name, when) => byId(name).classList.toggle("off", when);
   hide("names", !sides[0].data.movers.some(({ kind }) => kind === "label"));
   hide("trace", !sides[0].data.movers.some(({ kind }) => kind === "curve"));
-  for (const [name, order] of [["velocity", 1], ["acceleration", 2]])
+  for (const [order, name] of ARROWS.entries())
     hide(name, !sides[0].data.movers.some((mover) => mover.kind === "arrows" && mover.order === order && mover.at.length));
   hide("theme", Boolean(page.theme));
   hide("curves", !sides.some(({ charts }) => charts.length));

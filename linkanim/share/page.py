@@ -38,9 +38,10 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
+from linkanim.share.forces import forces
 from linkanim.share.laws import Law, law_of
 from linkanim.share.lengths import model
-from linkanim.share.movers import Mobile, Pairs, begin_of, centre, packed, packed_tracks, tracks
+from linkanim.share.movers import Mobile, Pairs, begin_of, centre, packed, packed_tracks, shares_of, tracks
 from linkanim.share.tables import Tabulated, kind_of, table
 
 # The numbers of a page over one true period, in both directions: rows of values, and the chart.
@@ -309,7 +310,8 @@ class _Side:
     def __init__(self, shared: Shared, light: Picture, dark: Picture, pairs: Pairs) -> None:
         self._shared, self._scene, self._pairs = shared, light.scene, pairs
         self._picture, self._dark = light, dark
-        self._movables = tuple(Mobile(light, dark, pairs).movables())
+        pulled = forces(light, dark, shared.speed or self._scene.linkage.drive.speed, pairs)
+        self._movables = tuple(Mobile(light, dark, pairs, pulled).movables())
 
     def markup(self, number: int, known: dict[str, str]) -> str:
         """Return its groups, numbered if they move; hidden unless the closure is the first.
@@ -335,14 +337,8 @@ class _Side:
 
         It keeps them where lengths are changed. One on a single joint is so many pixels off it.
         """
-        pose, view, found = self._scene.pose(0.0, 0), self._picture.view, {}
-        for body, place in pose.com_position.items():
-            joints = self._scene.linkage.body(body).joints or (str(self._scene.linkage.body(body).slider),)
-            ends = [view.place(pose.position[name]) for name in joints]
-            off = view.place(place) - ends[0]
-            share = off / (ends[1] - ends[0]) if len(ends) > 1 else off
-            found[centre(body)] = [joints[0], joints[min(1, len(ends) - 1)], [share.real, share.imag]]
-        return found
+        places = self._scene.pose(0.0, 0).com_position
+        return {centre(body): shares_of(self._picture, body, at) for body, at in places.items()}
 
     def data(self) -> dict[str, Any]:
         """Return the closure's data for the page's script."""

@@ -21,7 +21,12 @@ def exactly(packed: str) -> list[float]:
 
 def read(held: dict[str, Any], packed: str, data: dict[str, Any], phase: float, *, back: bool) -> float:
     """Return a table's value at a phase, of one that runs `back` in its order: by Neville's scheme."""
-    table, period = unpacked(held, packed), math.tau * round(data["period"] / 6.28)
+    return read_values(held, unpacked(held, packed), data, phase, back=back)
+
+
+def read_values(held: dict[str, Any], table: Any, data: dict[str, Any], phase: float, *, back: bool) -> float:
+    """Return what a table of these entries has at a phase, as `read` does."""
+    period = math.tau * round(data["period"] / 6.28)
     there = phase % period
     if data["retraced"] and there == math.pi:
         there *= 1 - 1e-12  # the end of the way there

@@ -38,9 +38,14 @@ def _page(options: Namespace) -> Path:
 
 
 def _site(options: Namespace) -> Path:
-    for given, word in ((options.scene, "a scene"), (options.output, "-o"), (options.chart, "--chart")):
-        if given:
-            raise BadInput(f"--all writes every scene into its folder; leave out {word}, which is for one")
+    of_one = {
+        "a scene": options.scene,
+        "-o": options.output,
+        "--chart": options.chart,
+        "--static": options.static,
+    }
+    for word in filter(of_one.get, of_one):
+        raise BadInput(f"--all writes every scene into its folder; leave out {word}, which is for one")
     every = names()
     with bar(unit=" scenes") as progress:
         write_site(options.all, every, _shared(options, every[0]), options.unit, progress)
@@ -49,6 +54,7 @@ def _site(options: Namespace) -> Path:
 
 def _shared(options: Namespace, scene: str) -> Shared:
     shown = in_unit(load(scene), options.unit)
+    shown = shown.without_inertia if options.static else shown
     # pages of a site show the names of joints and links, as their readers cannot ask for these
     names = max(options.names, 1) if options.all else options.names
     return Shared(shown, options.speed, options.theme, options.chart, names)
