@@ -707,7 +707,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value(
             "file FILE",
             str,
-            "a scene, or a file of pyslvs, Linkage (.linkage2) or LInK (.npz), or a table",
+            "a scene, a link to PMKS(+), a file of PMKS, pyslvs, MotionGen, Linkage or LInK, or a table",
         ),
         _value("-o --output OUT.toml", Path, "the scene file to write", required=True),
     ),

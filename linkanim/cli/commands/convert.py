@@ -12,7 +12,7 @@ from linkanim import intake
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.errors import SceneError
 from linkanim.scenes import load
-from linkanim.scenes.foreign import read_foreign
+from linkanim.scenes.foreign import is_link, read_foreign, read_text
 from linkanim.scenes.posing import as_points
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
@@ -34,6 +34,10 @@ def run(options: Namespace) -> None:
 
 
 def _converted(name: str, title: str) -> tuple[Scene, tuple[str, ...]]:
+    if is_link(name):
+        found = read_text(name, "the link")
+        document = found.document(title, "converted from a link")
+        return replace(scene_from(document, name=title, where="the link"), document=document), found.left_out
     path = Path(name)
     if path.suffix.lower() != ".toml" and (path.suffix or path.is_file()):
         where = intake.named(path)
