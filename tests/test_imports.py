@@ -71,7 +71,7 @@ THIRD_PARTIES = {
     "atomic_files": {"platformdirs"},
     "manifest": set(),
     "manual": set(),
-    "mechanics": {"numpy"},
+    "mechanics": {"numpy", "llvmlite"},  # llvmlite: machine code, where it is installed
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
     "build": {"numpy"},

@@ -6,6 +6,7 @@ From the ground up; a module imports from those before it only:
     arithmetic  formulas written once, for floats, arrays and blocks
     angles      circular functions, unit vectors, exact sums of two floats
     precise     fifty digits, for what is worked out once
+    machine_code  passes over arrays as machine code, where llvmlite is installed
     program     formulas compiled: a function of floats, passes over arrays
     search      where a condition ends, a function changes sign, is highest
     linkage     what a linkage is, as data

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
-from ctypes import addressof, c_char
 from dataclasses import field
 from decimal import Decimal
 from functools import cached_property, lru_cache
+from struct import pack
 from types import CodeType, FunctionType
 from typing import Any
 
@@ -23,18 +23,21 @@ from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import WHOLE, Expr, LookUp, Value, digits_of
+from linkanim.mechanics.machine_code import (
+    LANES,
+    MachineCode,
+    Operation,
+    ProgramInputs,
+    compiled,
+    place,
+    variable,
+)
 from linkanim.mechanics.precise import cosine, sine, square_root
 
 # Where the values of a block are held while its passes run: in result rows, and in buffers beside them.
 #
 # A pass costs what it fetches and stores. So values that are in use at the same time have to fit in the
 # cache, and a result is written over one of its arguments wherever that is not needed any more.
-
-Operation = tuple[int, str, tuple[int | str, ...]]
-"""A node: its index, its operation and its arguments: other nodes' indices, names of inputs and of numbers.
-
-Linkages that differ in lengths alone mostly have the same operations, and so the same program.
-"""
 
 
 class Allocation(NamedTuple):
@@ -89,10 +92,14 @@ Bools = NDArray[np.bool_]
 
 
 BLOCK = 16384
-CACHE_LINE = 64
-"""Bytes."""
+CACHE_LINE, SIZE = 64, 8
+"""Bytes of a processor's cache line, and of a number."""
 _FEW, _NOTED = 200_000, 2
 """A program runs uncompiled for up to this many numbers in all, and up to this many times."""
+MANY = 30_000
+"""After so many poses a program is compiled to machine code: in 10 ms, with the import of llvmlite in 50."""
+CHECKED = 1_000
+"""The poses that are worked out in both ways then."""
 
 FORMULAS = {
     "add": "{} + {}",
@@ -184,10 +191,6 @@ class _Constants:
     def floats(self) -> dict[str, float]:
         """The numbers as plain floats: a `Constant` takes many times as long to compute with."""
         return {name: float(number) for name, number in self.numbers.items()}
-
-
-def _variable(value: int | str) -> str:
-    return value if isinstance(value, str) else f"v{value}"
 
 
 def _compiled(name: str, inputs: Iterable[str], lines: Iterable[str]) -> CodeType:
@@ -307,8 +310,8 @@ def _tuple_code(
     name: str, inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
 ) -> CodeType:
     """Return the code of a function that gives the outputs as they stand, a line for each operation."""
-    lines = [f"v{index} = {FORMULAS[op].format(*map(_variable, given))}" for index, op, given in operations]
-    result = "".join(f"{_variable(value)}, " for value in outputs)
+    lines = [f"v{index} = {FORMULAS[op].format(*map(variable, given))}" for index, op, given in operations]
+    result = "".join(f"{variable(value)}, " for value in outputs)
     return _compiled(name, inputs, [*lines, f"return ({result})"])
 
 
@@ -324,18 +327,55 @@ class Batch:
     spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
     """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
 
-    def __call__(self, *values: Array | float) -> Array:
-        """Return the outputs as rows (outputs, N)."""
+    def __call__(self, *values: Array | float, out: Array | None = None) -> Array:
+        """Return the outputs as rows (outputs, N): in `out`, whose rows lie one after the other, if given."""
         several = len(self.arrays)
         arrays: Sequence[Any] = values[:several]
-        if arrays and len(arrays[0]) == 1:
+        uniform = self.prelude(*values[several:])
+        results = aligned_rows(len(self.outputs), len(arrays[0])) if out is None else out
+        if not self._run_as_machine_code(arrays, uniform, results):
+            with np.errstate(all="ignore"):
+                self._run(arrays, uniform, results)
+        return results
+
+    def _run_as_machine_code(self, arrays: Sequence[Any], uniform: tuple[float, ...], results: Array) -> bool:
+        """Fill the results if the passes are worth it; False where they are left to numpy."""
+        count = results.shape[1]
+        code = self.passes.machine_code(count)
+        if code is None:
+            return False
+        given = [np.ascontiguousarray(array) for array in arrays]
+        words = (count, place(results), results.strides[0], self._words[1], *map(place, given), *uniform)
+        code(pack(f"{len(words) - len(uniform)}q{len(uniform)}d", *words))
+        if not self.passes.checked:
+            some = slice(0, CHECKED)
+            plain = np.empty((len(results), min(CHECKED, count)))
+            with np.errstate(all="ignore"):
+                self._run([array[some] for array in arrays], uniform, plain)
+            self.passes.check(results[:, some], plain)
+        return self.passes.checked
+
+    @cached_property
+    def _words(self) -> tuple[NDArray[np.int64], int]:
+        """The numbers as machine code takes them, then each table's place and last index; where they lie."""
+        numbers = [number for number in self.constants if not number.ndim]
+        tables = [(place(table), len(table) - 1) for table in self.constants[len(numbers) :]]
+        parts = np.array(numbers, np.float64).view(np.int64), np.array(tables, np.int64).ravel()
+        return (words := np.concatenate(parts)), place(words)
+
+    def _run(self, arrays: Sequence[Any], uniform: tuple[float, ...], results: Array) -> None:
+        """Fill the results by numpy."""
+        if results.shape[1] == 1:
             # numpy takes twice as long to work on one number in its own place as on two
-            return self(*(np.repeat(array, 2) for array in arrays), *values[several:])[:, :1]
-        numbers = self._numbers(values[several:])
-        count = arrays[0].shape[0]
-        results = aligned_rows(len(self.outputs), count)
+            twice = np.empty((len(results), 2))
+            self._run([np.repeat(array, 2) for array in arrays], uniform, twice)
+            results[...] = twice[:, :1]
+            return
+        # as arrays without a dimension: numpy would make them of plain numbers at every operation
+        numbers = [*(np.array(value, np.float64) for value in uniform), *self.constants]
+        count = results.shape[1]
         if self.passes.run_as_noted((*arrays, *numbers), results):
-            return results
+            return
         block, size = self.passes.block, _block_size(count)
         work = self._buffers(size)
         if count == size:
@@ -345,11 +385,6 @@ class Batch:
                 inside = [row[: part.stop - part.start] for row in work]
                 block(*(array[part] for array in arrays), *numbers, *results[:, part], *inside)
         self.spare.append(work)
-        return results
-
-    def _numbers(self, values: Sequence[Any]) -> list[Array]:
-        """Return the values that are the same along the array, as arrays without a dimension."""
-        return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
 
     def _buffers(self, size: int) -> list[Array]:
         """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
@@ -369,12 +404,11 @@ def aligned_rows(rows: int, count: int) -> Array:
 
     Vector units take whole cache lines; a row that begins elsewhere costs them two for each.
     """
-    line = CACHE_LINE // np.dtype(np.float64).itemsize
-    width = -(-count // line) * line
+    line = CACHE_LINE // SIZE
+    width = (count + line - 1) // line * line
     memory = np.empty(rows * width + line)
-    skipped = -addressof(c_char.from_buffer(memory.data)) % CACHE_LINE
-    strides = (width * memory.itemsize, memory.itemsize)
-    return np.ndarray((rows, count), np.float64, memory, skipped, strides)
+    skipped = -place(memory) % CACHE_LINE
+    return np.ndarray((rows, count), np.float64, memory, skipped, (width * SIZE, SIZE))
 
 
 def _block_size(count: int) -> int:
@@ -394,7 +428,8 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
     operations = constants.operations(node for node in nodes if not node.uniform)
     results = tuple(map(constants.name, outputs))
     kept = tuple(map(np.array, (constants.numbers | constants.tables).values()))
-    passes = _passes((*arrays, *numbers, *constants.numbers, *constants.tables), operations, results)
+    names = ProgramInputs(arrays, tuple(numbers), tuple(constants.numbers), tuple(constants.tables))
+    passes = _passes(names, operations, results)
     return Batch(arrays, tuple(outputs), passes, prelude, kept)
 
 
@@ -406,7 +441,7 @@ def _prelude(
     operations = constants.operations(nodes)
     outputs: tuple[int | str, ...] = (*used, *(index for index, *_ in operations))
     code = _tuple_code("prelude", inputs, operations, outputs)
-    return _function(code, "prelude", FLOAT_NAMES | constants.floats), [*map(_variable, outputs)]
+    return _function(code, "prelude", FLOAT_NAMES | constants.floats), [*map(variable, outputs)]
 
 
 class _Passes:
@@ -417,10 +452,30 @@ class _Passes:
     """
 
     def __init__(
-        self, inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
+        self, inputs: ProgramInputs, operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
     ) -> None:
-        self._inputs, self._operations, self._outputs = inputs, operations, outputs
-        self._runs = 0
+        self._kinds, self._operations, self._outputs = inputs, operations, outputs
+        self._inputs = [name for names in inputs for name in names]
+        self._runs = self._asked = 0
+        self.checked = self._refused = False
+        """Whether machine code was found to give the bits that numpy gives."""
+
+    def machine_code(self, count: int) -> MachineCode | None:
+        """Return what solves that many poses; None where numpy does, for the first of them or for ever."""
+        if count < LANES or self._refused:
+            return None
+        self._asked += count
+        return self._code if self._asked >= MANY else None
+
+    @cached_property
+    def _code(self) -> MachineCode | None:
+        return compiled(self._kinds, self._operations, self._outputs)
+
+    def check(self, found: Array, plain: Array) -> None:
+        """Refuse the machine code for ever where its results differ from numpy's in any bit."""
+        same = (found.view(np.int64) == plain.view(np.int64)) | (np.isnan(found) & np.isnan(plain))
+        self.checked = bool(same.all())
+        self._refused = not self.checked
 
     def run_as_noted(self, given: Sequence[Array], results: Array) -> bool:
         """Fill the results (outputs, N) without compiling; return False where they are left to `block`."""
@@ -429,14 +484,14 @@ class _Passes:
         self._runs += 1
         known: dict[str, Any] = dict(zip(self._inputs, given, strict=True))
         for index, op, arguments in self._operations:
-            values, name = [known[_variable(value)] for value in arguments], _variable(index)
+            values, name = [known[variable(value)] for value in arguments], variable(index)
             if op == "select":
                 a, b, below, otherwise = values
                 known[name] = np.where(a < b, below, otherwise)
             else:
                 known[name] = UFUNCS[op](*values)
         for row, value in zip(results, self._outputs, strict=True):
-            row[...] = known[_variable(value)]
+            row[...] = known[variable(value)]
         return True
 
     @cached_property
@@ -466,7 +521,7 @@ def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]
     """Yield the numpy calls in order."""
     held = places.held
     for index, op, arguments in operations:
-        given, place = [held.get(value) or _variable(value) for value in arguments], held[index]
+        given, place = [held.get(value) or variable(value) for value in arguments], held[index]
         if op == "select":
             a, b, below, otherwise = given
             yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
@@ -476,4 +531,4 @@ def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]
             yield f"{op}({', '.join(given)}, {target})"
     for row, value in places.copies:
         # a constant is an array of no dimension: numpy would make one of a plain number at every call
-        yield f"o{row}[...] = {held.get(value) or _variable(value)}"
+        yield f"o{row}[...] = {held.get(value) or variable(value)}"

@@ -59,7 +59,13 @@ def test_poses_have_all_their_digits_up_to_a_billion_turns_and_are_refused_beyon
         there, here = scene.solve(phase=[phase]), scene.solve(phase=[near])
         for joint, place in here.position.items():
             assert np.abs(there.position[joint] - place).max() <= 4e-15 * scene.linkage.longest
-    for ask in (scene.pose, lambda phase: scene.solve(phase=[0.0, phase])):
+    many = np.zeros(10_000)
+    for ask in (
+        scene.pose,
+        lambda phase: scene.solve(phase=[0.0, phase]),
+        lambda phase: scene.solve(phase=np.append(many, phase)),
+        lambda phase: scene.solve(phase=np.append(many, -phase)),
+    ):
         with pytest.raises(BadInput, match=f"{name}: phase=.* is more than .* turns.*take off whole periods"):
             ask(-1.01 * most)
 
