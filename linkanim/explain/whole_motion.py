@@ -46,7 +46,6 @@ from linkanim.frozen import NamedTuple
 from linkanim.mechanics.analysis import FourBar, four_bar_of
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint
 from linkanim.mechanics.measures import output_body, output_slider
-from linkanim.mechanics.motion import Lazy
 from linkanim.mechanics.quantities import called
 from linkanim.mechanics.search import highest
 from linkanim.scenes.scene import Scene
@@ -270,7 +269,7 @@ class _WholeMotion:
 
         def apart(phases: np.ndarray) -> np.ndarray:
             at = self.scene.solve(phase=phases, derivatives=0).position
-            return found.of(Lazy(at, lambda name: at[name][:, 0] + 1j * at[name][:, 1]))
+            return found.of({name: place[:, 0] + 1j * place[:, 1] for name, place in at.items()})
 
         self._say_bounds(joint.name, found, self._ends(apart))
 

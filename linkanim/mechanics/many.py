@@ -11,7 +11,7 @@ input a dyad down the chain limits, or comes near to limiting, and those driven 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import field
 from functools import partial, reduce
 
@@ -23,8 +23,8 @@ from linkanim.mechanics.angles import FULL_TURN, HALF_TURN, Sum, exact_angle
 from linkanim.mechanics.arithmetic import FormGraph, Slope, Value, are_inputs, known, maximum, minimum, sqrt
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import MOTOR, Linkage
-from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS
-from linkanim.mechanics.motion import ResultLayout, layout, walked_rows
+from linkanim.mechanics.measures import DERIVATIVE_OF, LEVER
+from linkanim.mechanics.motion import Layout, laid_out, walked_rows
 from linkanim.mechanics.program import Array, Batch, Bools, batch
 from linkanim.mechanics.search import around
 from linkanim.mechanics.solver.assembly import find_loops, runs_back, side_of, turns_to_return
@@ -50,7 +50,7 @@ class Program(NamedTuple):
     """
 
     run: Batch
-    places: ResultLayout | None = None
+    places: Layout | None = None
     apart: bool = False
     sines: Batch | None = None
     phases: Array = np.empty(0)
@@ -94,14 +94,14 @@ class LinkageForm:
 
     def solved(
         self, lengths: Sequence[Array], phases: Array, rates: tuple[float, float], derivatives: int
-    ) -> tuple[ResultLayout | None, Array, Bools]:
+    ) -> tuple[Layout | None, Array, Bools]:
         """Return where results lie, the results (rows, N), and which linkages are left to themselves (N,).
 
         `lengths` are arrays (N,), as is `phases`. What has no pose is NaN. The layout is None where none
         was solved.
         """
         programs = self.programs.setdefault(derivatives, [])
-        places: ResultLayout | None = None
+        places: Layout | None = None
         whole, left = np.empty((0, len(phases))), np.zeros(len(phases), dtype=bool)
         rows, n = np.arange(len(phases)), 0
         while self.uniform and len(rows) and n < MOST:
@@ -151,7 +151,11 @@ def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Pr
     try:
         assert form.made is not None
         walk = _walked(form, form.made(lengths), x, Slope(graph.input("w", uniform=True), second))
-        rows = dict(_rows(walk, derivatives))
+        rows = {
+            kind: values
+            for kind, values in walked_rows(walk, 1.0)
+            if kind != LEVER and DERIVATIVE_OF[kind] <= derivatives
+        }
     except AssemblyError:
         apart = True
     except (Unlike, ArithmeticError, ValueError):
@@ -162,22 +166,15 @@ def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Pr
     if walk is None:
         return Program(batch(rated, [like]), None, apart)
     pins = {pin.name: pin.position for pin in walk.linkage.pins if not are_inputs(*pin.position)}
-    places = layout(rows, pins, VECTORS[:3])
+    places, outputs = laid_out(rows, pins)
     sines = [_sine(closing) for closing in walk.closings.values()]
     turns, quickest = turns_to_return(walk.linkage, walk.assembly.loops), walk.assembly.quickest
     return Program(
-        batch(rated, [*places.outputs, like]),
+        batch(rated, [*outputs, like]),
         places,
         sines=batch(inputs, sines) if sines else None,
         phases=around(turns, math.ceil(SAMPLES * quickest)),
     )
-
-
-def _rows(walk: Walk, derivatives: int) -> Iterator[tuple[str, dict[str, tuple[Value, ...]]]]:
-    """Yield the quantities with up to that many derivatives: kind, and by name their components."""
-    for kind, (_, rows) in zip((*VECTORS, *NUMBERS), walked_rows(walk, 1.0), strict=False):
-        if DERIVATIVE_OF[kind] <= derivatives:
-            yield kind, dict(rows)
 
 
 def _sine(closing: Closing) -> Value:

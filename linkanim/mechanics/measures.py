@@ -677,14 +677,10 @@ CORIOLIS = _of_slip(3, "coriolis", "aᶜ", "Coriolis acceleration", "{}/s²", 2)
 
 LEVER = "lever"
 """The solved arms of the dyads' reactions, which a linkage without forces does not have."""
-FAMILIES = (
-    *(tuple(measure.name for measure in family) for family in (POINT, CENTRE, TURNING[1:], TRAVELLING)),
-    (LEVER,),
-)
-"""The solved quantities in families that are worked out together, each before its derivatives."""
 VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
 NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
 DERIVATIVE_OF = {
-    **{measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)},
+    **{measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING[1:], *TRAVELLING)},
     LEVER: 0,
 }
+"""The solved quantities, and how many derivatives each has."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
@@ -26,7 +26,6 @@ from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Body, CrankTriangle, Damper, Linkage, Spring
 from linkanim.mechanics.measures import (
     DERIVATIVE_OF,
-    FAMILIES,
     LEVER,
     NUMBERS,
     VECTORS,
@@ -57,84 +56,67 @@ from linkanim.mechanics.tolerances import SAME_PLACE
 # without bound near a dead centre. Between two directions less than half a turn apart the turn is known, so
 # further instants are put between neighbours until these are close in the input and in direction.
 
+COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
+"""The input's angle, or travel, and its two rates, which are not the phase's where it does not turn fully."""
+ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True))}
+POINTS = VECTORS[:3]
+
 Pair = tuple[float, float]
 
 
-@frozen
-class Place:
-    """The first row of a quantity and how many rows it has; a `fixed` pair (x, y) takes none."""
+class Layout(NamedTuple):
+    """Where quantities by kind and name lie in rows of results, those of vectors before those of numbers.
 
-    row: int
-    count: int
-    fixed: Pair | None = None
-
-
-class ResultLayout(NamedTuple):
-    """The places of all quantities by kind and name, and the kind that each row holds."""
-
-    places: Mapping[str, Mapping[str, Place]]
-    outputs: tuple[Value, ...]
-    kinds: tuple[str, ...]
-
-
-def layout(
-    rows: Mapping[str, Mapping[str, tuple[Value, ...]]], fixed: Mapping[str, Pair], vectors: tuple[str, ...]
-) -> ResultLayout:
-    """Lay the quantities out in rows, one for each component; what is fixed takes none.
-
-    `fixed` gives where pins stand, `vectors` the kinds of quantity that pins have: their position,
-    then rates, which are zero.
+    A place counts vectors, each of two rows, or the numbers behind them; a pin's is its pair. `rated` are the
+    rows of rates and of levers, which may be unbounded at a limit.
     """
-    places: dict[str, dict[str, Place]] = {}
+
+    places: Mapping[str, Mapping[str, int | Array]]
+    vectors: int
+    rated: NDArray[np.bool_]
+
+
+def laid_out(
+    rows: Mapping[str, Mapping[str, tuple[Value, ...]]], pins: Mapping[str, Pair]
+) -> tuple[Layout, list[Value]]:
+    """Return where quantities by kind and name lie, and what the rows hold.
+
+    `pins` gives where pins stand; their rates are zero.
+    """
+    places: dict[str, dict[str, int | Array]] = {kind: {} for kind in rows}
     outputs: list[Value] = []
-    kinds: list[str] = []
-    for kind, values in rows.items():
-        places[kind] = {}
-        for name, components in values.items():
-            if kind in vectors and name in fixed:
-                places[kind][name] = Place(-1, 2, fixed[name] if kind == vectors[0] else (0.0, 0.0))
+    rated: list[bool] = []
+    vectors = 0
+    for kind in sorted(rows, key=lambda kind: kind not in VECTORS):
+        for name, components in rows[kind].items():
+            if name in pins and kind in POINTS:
+                places[kind][name] = read_only(np.array((0.0, 0.0) if ORDER[kind] else pins[name]))
                 continue
-            places[kind][name] = Place(len(outputs), len(components))
+            places[kind][name] = vectors if kind in VECTORS else len(outputs) - 2 * vectors
+            vectors += kind in VECTORS
             outputs.extend(components)
-            kinds.extend([kind] * len(components))
-    return ResultLayout(places, tuple(outputs), tuple(kinds))
+            rated.extend([kind == LEVER or ORDER[kind] > 0] * len(components))
+    return Layout(places, vectors, np.array(rated, bool)), outputs
 
 
-class Lazy(Mapping[str, Any]):
-    """A mapping whose values are worked out when they are first read; nobody can change them."""
-
-    def __init__(self, names: Iterable[str], find: Callable[[str], Any]) -> None:
-        self._names, self._find = dict.fromkeys(names), find
-        self._found: dict[str, Any] = {}
-
-    def __getitem__(self, name: str) -> Any:
-        if name not in self._found:
-            if name not in self._names:
-                raise KeyError(name)
-            self._found[name] = read_only(self._find(name))
-        return self._found[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
-
-
-def columns(places: Mapping[str, Place], results: Array, shape: tuple[int, ...]) -> Mapping[str, Array]:
-    """Return one kind of quantity by name: views of the results.
+def arrays(layout: Layout, results: Array, shape: tuple[int, ...]) -> dict[str, Any]:
+    """Return quantities by kind and name: views of the results, and of the pairs of pins.
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
     """
-
-    def column(name: str) -> Any:
-        place = places[name]
-        if place.fixed is not None:
-            return np.broadcast_to(np.array(place.fixed), (*shape, 2))
-        rows = results[place.row : place.row + place.count]
-        return rows[0].reshape(shape) if place.count == 1 else rows.T.reshape((*shape, 2))
-
-    return Lazy(places, column)
+    (places, vectors, _), count, still = layout, results.shape[1], (*[0] * len(shape), 8)
+    pairs = results[: 2 * vectors].reshape(vectors, 2, count).transpose(0, 2, 1)
+    points = list(pairs.reshape(vectors, *shape, 2))
+    numbers = [row.reshape(shape) for row in results[2 * vectors :]]
+    return {
+        kind: {
+            name: (points if kind in VECTORS else numbers)[place]
+            if isinstance(place, int)
+            else np.ndarray((*shape, 2), np.float64, place, 0, still)
+            for name, place in there.items()
+        }
+        for kind, there in places.items()
+    }
 
 
 def read_only(values: Any) -> Any:
@@ -194,13 +176,8 @@ def _shortest(turn: Array) -> Array:
 # `Motion` holds arrays, `Pose` the same quantities of one instant as plain floats. Lengths are in the
 # scene's unit, angles in radians, time in seconds, forces in newtons (tension positive).
 
-COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
-"""The input's angle, or travel, and its two rates, which are not the phase's where it does not turn fully."""
 _PLACES = {VECTORS[0], VECTORS[3]}
 NOTHING: Mapping[str, Any] = MappingProxyType({})
-LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
-"""For each quantity, those of its family with fewer derivatives."""
-ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True)), "phase": 0}
 
 
 class Variant(NamedTuple):
@@ -231,8 +208,8 @@ class Strut(NamedTuple):
     direction_rate: Any
 
 
-class Instants(NamedTuple):
-    """Instants (N,) with their `rates`, the shape of the answer, and the greatest order of derivatives.
+class Asked(NamedTuple):
+    """What a motion is solved for: instants (N,) and the input's `rates`, in a shape, up to derivatives.
 
     `distances` tells, for the angles of an input that swings, how far they are from its limits. Where the
     input comes back through the same poses, `phases` are the phases asked for, `x` those of the same poses on
@@ -241,10 +218,10 @@ class Instants(NamedTuple):
 
     variant: Variant
     x: Array
-    distances: LimitDistances | None
     rates: tuple[Any, Any]
     shape: tuple[int, ...]
     derivatives: int
+    distances: LimitDistances | None = None
     phases: Array | None = None
     back: NDArray[np.bool_] | None = None
 
@@ -300,7 +277,7 @@ class Derived(ABC, Generic[Vector, Number]):
         over many instants it has no jumps along the first axis.
         """
         bodies = tuple(body.name for body in self.mechanism.linkage.bodies if body.slider is None)
-        return Lazy(bodies, self._angle)
+        return {name: read_only(self._angle(name)) for name in bodies}
 
     def _angle(self, name: str) -> Any:
         body = self.mechanism.linkage.body(name)
@@ -321,15 +298,12 @@ class Derived(ABC, Generic[Vector, Number]):
         Infinite where a limit of the input leaves them unbounded.
         """
         known = self.per_input
-        return Lazy((*known.angular_acceleration, *known.travel_acceleration), self._coefficient)
-
-    def _coefficient(self, name: str) -> tuple[Any, Any]:
-        known = self.per_input
-        if name in known.angular_velocity:
-            rates = known.angular_velocity[name], known.angular_acceleration[name]
-        else:
-            rates = known.travel_velocity[name], known.travel_acceleration[name]
-        return unbounded(rates[0], self.phase), unbounded(rates[1], self.phase)
+        first = {**known.angular_velocity, **known.travel_velocity}
+        second = {**known.angular_acceleration, **known.travel_acceleration}
+        return {
+            name: read_only((unbounded(first[name], self.phase), unbounded(rate, self.phase)))
+            for name, rate in second.items()
+        }
 
     @property
     @abstractmethod
@@ -346,12 +320,12 @@ class Derived(ABC, Generic[Vector, Number]):
     @cached_property
     def spring(self) -> Mapping[str, Strut]:
         """Each spring's length, rate and force."""
-        return self._struts(self.mechanism.linkage.springs)
+        return {item.name: read_only(self._strut(item)) for item in self.mechanism.linkage.springs}
 
     @cached_property
     def damper(self) -> Mapping[str, Strut]:
         """Each damper's length, rate and force."""
-        return self._struts(self.mechanism.linkage.dampers)
+        return {item.name: read_only(self._strut(item)) for item in self.mechanism.linkage.dampers}
 
     @cached_property
     def reactions(self) -> Reactions:
@@ -371,10 +345,6 @@ class Derived(ABC, Generic[Vector, Number]):
             joint: {body: force if whole else np.stack(force, axis=-1) for body, force in bodies.items()}
             for joint, bodies in self.reactions.joints.items()
         }
-
-    def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
-        by_name = {item.name: item for item in items}
-        return Lazy(tuple(by_name), lambda name: self._strut(by_name[name]))
 
     def _strut(self, item: Spring | Damper) -> Strut:
         apart = between(self.position, item.between)
@@ -399,114 +369,77 @@ class Motion(Derived[Array, Array]):
     """The motion at many instants: vectors are arrays (..., 2), numbers (...).
 
     Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
-    limit, per unit of input speed) are infinite. Each quantity is worked out when it is first read.
+    limit, per unit of input speed) are infinite. What has more derivatives than were asked for is empty.
     """
 
-    instants: Instants
+    asked: Asked
 
-    def __init__(
-        self, mechanism: Mechanism, input_speed: Any, input_acceleration: Any, instants: Instants
-    ) -> None:
+    def __init__(self, mechanism: Mechanism, asked: Asked) -> None:
+        speed, acceleration = (_shaped(rate, asked.shape) for rate in asked.rates)
+        vars(self).update(mechanism.solved(asked))
         vars(self).update(
-            mechanism=mechanism,
-            input_speed=input_speed,
-            input_acceleration=input_acceleration,
-            instants=instants,
+            mechanism=mechanism, asked=asked, input_speed=speed, input_acceleration=acceleration
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was asked for, which is worked out anew."""
-        return Motion, (self.mechanism, self.input_speed, self.input_acceleration, self.instants)
+        return Motion, (self.mechanism, self.asked)
 
     def __getattr__(self, name: str) -> Any:
-        """Work a quantity out, with those that come out of the same pass."""
-        if name not in ORDER:
+        """Return nothing of a kind that was not asked for."""
+        if name not in DERIVATIVE_OF:
             raise self._missing("a motion", name)
-        vars(self).update(self._read(name))
-        return vars(self)[name]
+        return NOTHING
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
 
-    def _read(self, name: str) -> dict[str, Any]:
-        """Return a quantity and those that the same pass gives, without those that are known already."""
-        if name not in DERIVATIVE_OF:
-            return self._input()
-        if DERIVATIVE_OF[name] > self.instants.derivatives:
-            return {name: {}}
-        return self._worked_out((*[kind for kind in LOWER[name] if kind not in vars(self)], name))
+    @cached_property
+    def phase(self) -> Array:  # type: ignore[override]
+        """The phases; of angles those on the way up, NaN where the input does not come to them."""
+        asked = self.asked
+        if asked.variant.by_phase:
+            return (asked.x if asked.phases is None else asked.phases).reshape(asked.shape)
+        with np.errstate(all="ignore"):
+            found = self.mechanism.assembly.path.phases(asked.x.reshape(asked.shape), asked.distances)
+        phases: Array = read_only(found)
+        return phases
 
     @cached_property
-    def every(self) -> Mapping[str, Mapping[str, Array]]:
-        """All quantities by kind and name, from one pass; none of them is worked out again."""
-        kinds: dict[str, Any] = {kind: {} for family in FAMILIES for kind in family}
-        known = (kind for kind in kinds if DERIVATIVE_OF[kind] <= self.instants.derivatives)
-        found = kinds | self._worked_out(tuple(known))
-        vars(self).update(found)
-        return found
+    def coordinate(self) -> Array:  # type: ignore[override]
+        """Where the input is; an input that swings by phase has it solved."""
+        x = self.asked.x.reshape(self.asked.shape)
+        return read_only(self.mechanism.assembly.path.coordinates(x)) if self.asked.variant.by_phase else x
 
-    def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
-        """Return these kinds of quantities by name."""
-        places, results = self._run(kinds)
-        return self.mechanism.placed(
-            {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
-        )
+    @cached_property
+    def coordinate_rate(self) -> Any:
+        """How fast the input moves; one that swings by phase has it solved."""
+        return self.input_speed
 
-    def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Array]:
-        instants, path = self.instants, self.mechanism.assembly.path
-        program, places = self.mechanism.program(instants.variant, kinds)
-        rates = instants.rates if instants.variant.accelerates else instants.rates[:1]
-        distances = instants.distances
-        with np.errstate(all="ignore"):
-            results = program(*((instants.x,) if distances is None else path.solved_from(distances)), *rates)
-            if instants.back is not None and instants.back.any():
-                results[:, instants.back] = program(instants.x[instants.back], *(-rate for rate in rates))
-            if distances is not None:
-                results[:, distances.outside] = np.nan
-                if distances.at_limit.any() and any(DERIVATIVE_OF[kind] or kind == LEVER for kind in kinds):
-                    snapped = program(*path.solved_from(distances.snapped), *rates)
-                    _mark_limits(places, results, snapped, distances.at_limit)
-        results.setflags(write=False)
-        return places, results
-
-    def _input(self) -> dict[str, Any]:
-        """Return the phase, and the input's coordinate with its two rates."""
-        instants, path, names = self.instants, self.mechanism.assembly.path, ("phase", *COORDINATE)
-        x, rates = instants.x.reshape(instants.shape), (self.input_speed, self.input_acceleration)
-        if not instants.variant.by_phase:
-            with np.errstate(all="ignore"):
-                return dict(
-                    zip(names, (read_only(path.phases(x, instants.distances)), x, *rates), strict=True)
-                )
-        if path.full_turn:
-            return dict(zip(names, (x, read_only(path.coordinates(x)), *rates), strict=True))
-        places, results = self._run(COORDINATE)
-        shown = x if instants.phases is None else instants.phases.reshape(instants.shape)
-        return {"phase": shown} | {
-            kind: row.reshape(instants.shape) for kind, row in zip(places.kinds, results, strict=True)
-        }
+    @cached_property
+    def coordinate_second(self) -> Any:
+        """How the input's rate changes; one that swings by phase has it solved."""
+        return self.input_acceleration
 
     @cached_property
     def per_input(self) -> Motion:
         """The same instants, with rates by the input's angle, or travel, instead of those in time."""
-        by_phase = self.instants.variant.by_phase
-        variant = Variant(by_phase, False, per_input=by_phase and not self.mechanism.full_turn)
-        instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
-        return Motion(self.mechanism, 1.0, 0.0, instants)
+        by_phase = self.asked.variant.by_phase
+        return self._rated(Variant(by_phase, False, per_input=by_phase and not self.mechanism.full_turn))
 
     def per(self, mover: str) -> Motion:
         """Return the same instants, with the rates of all behind a joint by that joint's own way."""
         if mover not in self._per:
-            variant = Variant(self.instants.variant.by_phase, False, mover=mover)
-            instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
-            found = self._per[mover] = Motion(self.mechanism, 1.0, 0.0, instants)
-            places = {kind: getattr(self, kind) for kind in ("position", "com_position")}
-            vars(found).update(places, phase=self.phase)
+            self._per[mover] = self._rated(Variant(self.asked.variant.by_phase, False, mover=mover))
         return self._per[mover]
 
     @cached_property
     def _per(self) -> dict[str, Motion]:
         return {}
+
+    def _rated(self, variant: Variant) -> Motion:
+        """Return the same instants with other rates."""
+        return Motion(self.mechanism, self.asked._replace(variant=variant, rates=(1.0, 0.0), back=None))
 
     def _continuous(self, ends: tuple[str, str]) -> Array:
         principal: Array = np.asarray(direction(between(self.position, ends)))
@@ -515,7 +448,7 @@ class Motion(Derived[Array, Array]):
     def _unwrapped(self, principal: Array, ends: tuple[str, str]) -> Array:
         """Add whole turns, as a direction has turned between neighbours."""
         steps = np.diff(principal, axis=0)
-        x, at = self.instants.x.reshape(principal.shape), partial(self._direction, ends)
+        x, at = self.asked.x.reshape(principal.shape), partial(self._direction, ends)
         rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, principal)]
         angles = turned(rows[0], rows[1], at, self.mechanism.assembly.quickest)
         turns = np.rint((angles.reshape(steps.shape) - steps) / math.tau)
@@ -525,19 +458,9 @@ class Motion(Derived[Array, Array]):
 
     def _direction(self, ends: tuple[str, str], x: Array) -> Array:
         """Return the direction of one joint to another at other instants."""
-        distances = self.instants.distances and self.mechanism.assembly.path.distances(x)
-        w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.instants.rates)
-        instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape, back=None)
-        found = Motion(self.mechanism, 1.0, 0.0, instants).position
+        by = "phase" if self.asked.variant.by_phase else "angle"
+        found = self.mechanism.solve(**{by: x}, speed=1.0, derivatives=0).position
         return np.asarray(direction(between(found, ends)))
-
-
-def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit: NDArray[np.bool_]) -> None:
-    """Give rates, and levers, the values they have at the limit itself: infinite where they are unbounded."""
-    for row, kind in enumerate(places.kinds):
-        if DERIVATIVE_OF[kind] or kind == LEVER:
-            values = snapped[row, at_limit]
-            results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
 
 
 def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
@@ -561,7 +484,7 @@ class Pose(Derived[Pair, float]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was solved, without what follows from it."""
-        kinds = (*ORDER, "mechanism", "input_speed", "input_acceleration")
+        kinds = (*ORDER, "phase", "mechanism", "input_speed", "input_acceleration")
         return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
 
     def __getattr__(self, name: str) -> Any:
@@ -711,7 +634,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[tuple[Variant, tuple[str, ...]], tuple[Batch, ResultLayout]]:
+    def _programs(self) -> dict[tuple[Variant, int], tuple[Batch, Layout]]:
         return {}
 
     def pose(
@@ -779,7 +702,8 @@ class Mechanism:
         derivatives, _, per_input = key
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
         motion = motion.per_input if per_input else motion
-        found = self.placed({kind: _plain(near(values)) for kind, values in motion.every.items()})
+        kinds = (kind for kind in DERIVATIVE_OF if DERIVATIVE_OF[kind] <= derivatives)
+        found = self.placed({kind: _plain(near(getattr(motion, kind))) for kind in kinds})
         inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
         return found | {name: float(getattr(motion, name)) for name in inputs} | {"mechanism": self}
 
@@ -794,38 +718,62 @@ class Mechanism:
     ) -> Motion:
         """Return the motion at crank angles, or at phases; scalar or any shape."""
         given = np.asarray(angle if phase is None else phase, dtype=np.float64)
-        by_phase, sign = None, 1.0
+        shown = None
         if phase is not None and self.assembly.path.way:
-            by_phase, (given, sign) = given, retraced(given, self.assembly.path.way)
-        (w, a), shape = _rates(speed, acceleration, given.shape)
-        varying, back, rates = isinstance(w, np.ndarray), None, (w, a)
-        if by_phase is not None:
-            signs = np.broadcast_to(sign, shape).reshape(-1)
-            back, rates = (None, (signs * w, signs * a)) if varying else (signs < 0, rates)
-        variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
-        x = _kept(given, shape)
-        distances = self.assembly.path.distances(x) if phase is None else None
-        shown = None if by_phase is None else _kept(by_phase, shape)
-        instants = Instants(variant, x, distances, rates, shape, derivatives, shown, back)
-        return Motion(self, _shaped(w, shape), _shaped(a, shape), instants)
+            shown, (given, sign) = given, retraced(given, self.assembly.path.way)
+        rates, shape = _rates(speed, acceleration, given.shape)
+        varying = isinstance(rates[0], np.ndarray)
+        x, variant = _kept(given, shape), Variant(phase is not None, varying or rates[1] != 0.0, varying)
+        asked = Asked(variant, x, rates, shape, derivatives)
+        if shown is not None:
+            back = np.broadcast_to(sign < 0, shape).reshape(-1)
+            asked = asked._replace(phases=_kept(shown, shape), back=back)
+        elif phase is None:
+            asked = asked._replace(distances=self.assembly.path.distances(x))
+        return Motion(self, asked)
 
-    def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
-        """Return the program over arrays that works quantities out, and where its results lie."""
-        found = self._programs.get((variant, kinds))
+    def solved(self, asked: Asked) -> dict[str, Any]:
+        """Return what is asked for by kind and name, and the coordinate of an input that swings by phase."""
+        (program, layout), path = self.program(asked.variant, asked.derivatives), self.assembly.path
+        rates = asked.rates if asked.variant.accelerates else asked.rates[:1]
+        distances, back = asked.distances, asked.back
+        if asked.variant.varying_rate and back is not None:
+            rates, back = tuple(np.where(back, -rate, rate) for rate in rates), None
+        with np.errstate(all="ignore"):
+            results = program(*((asked.x,) if distances is None else path.solved_from(distances)), *rates)
+            if back is not None and back.any():
+                results[:, back] = program(asked.x[back], *(-rate for rate in rates))
+            if distances is not None:
+                results[:, distances.outside] = np.nan
+                if distances.at_limit.any():
+                    snapped = program(*path.solved_from(distances.snapped), *rates)
+                    rows = np.ix_(layout.rated, distances.at_limit)
+                    results[rows] = np.where(np.isnan(snapped[rows]), np.inf, snapped[rows])
+        results.setflags(write=False)
+        found = arrays(layout, results, asked.shape)
+        found |= {kind: found[kind][""] for kind in COORDINATE if kind in found}
+        return self.placed(found)
+
+    def program(self, variant: Variant, derivatives: int) -> tuple[Batch, Layout]:
+        """Return the program over arrays of up to so many derivatives, and where its results lie."""
+        found = self._programs.get((variant, derivatives))
         if found is None:
-            found = self._programs[variant, kinds] = self._compiled(variant, kinds)
+            found = self._programs[variant, derivatives] = self._compiled(variant, derivatives)
         return found
 
-    def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+    def _compiled(self, variant: Variant, derivatives: int) -> tuple[Batch, Layout]:
         names, rows = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
         varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.near.pins}
-        places = layout({kind: rows[kind] for kind in kinds}, pins, VECTORS[:3])
-        there = tuple(self._programs.items())  # in one step: another thread may add to it meanwhile
-        made = ((program, laid) for (like, _), (program, laid) in there if like == variant)
-        known = (program for program, laid in made if laid.kinds == places.kinds)
-        return next(known, None) or batch(varying, places.outputs), places
+        swings = variant.by_phase and not self.full_turn
+        asked = {
+            kind: values
+            for kind, values in rows.items()
+            if (swings if kind in COORDINATE else ORDER[kind] <= derivatives)
+        }
+        layout, outputs = laid_out(asked, pins)
+        return batch(varying, outputs), layout
 
 
 def _placed(program: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:

@@ -52,8 +52,9 @@ def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> 
     """Return where the values of nodes are held; the operations are given in the order of their work.
 
     Outputs are held in their own rows, named o0, o1, …; other values in rows that are not filled yet, and in
-    buffers, b0, b1, …: in the place that was free last of those that stay free as long. An output that is no
-    node, or that has an earlier row, is to be copied.
+    buffers, b0, b1, …: in the row of the output that becomes of them, if it is free, else in the place that
+    was free last of those that stay free as long. An output that is no node, or that has an earlier row, is
+    to be copied.
     """
     computed = {index for index, *_ in operations}
     held: dict[int | str, str] = {}
@@ -66,9 +67,17 @@ def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> 
     last = {value: at for at, (*_, arguments) in enumerate(operations) for value in arguments}
     filled = {held[index]: at for at, (index, *_) in enumerate(operations) if index in held}
     free, inner, buffers = sorted(filled, key=lambda row: -filled[row]), computed - held.keys(), 0
+    becomes = dict(held)
+    for at, (index, _, arguments) in reversed([*enumerate(operations)]):
+        if index in becomes:
+            becomes |= {one: becomes[index] for one in arguments if last[one] == at and one in inner}
     for at, (index, _, arguments) in enumerate(operations):
         free += [held[one] for one in dict.fromkeys(arguments) if last[one] == at and one in inner]
         if index in held:
+            continue
+        if (own := becomes.get(index)) and own in free and filled[own] >= last[index]:
+            free.remove(own)
+            held[index] = own
             continue
         for n in range(len(free) - 1, -1, -1):
             if (end := filled.get(free[n], len(operations))) >= last[index]:

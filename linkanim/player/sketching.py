@@ -76,7 +76,7 @@ def follow(state: State, numbers: tuple[float, ...]) -> State:
 
 def ready(scene: Scene, phase: float) -> Scene:
     """Return a scene after working out what the next frame needs, since that frame has a picture to make."""
-    _ = scene.cycle(1, derivatives=0).position
+    scene.cycle(1, derivatives=0)
     scene.pose(phase, 0)
     return scene
 

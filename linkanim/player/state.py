@@ -277,7 +277,7 @@ def _on_the_way(begun: Glide, after: Scene, part: float) -> Scene | None:
 
 def closes(scene: Scene) -> bool:
     """Tell whether all joints have a place at all phases."""
-    places = scene.cycle(scene.mechanism.count(_TRIED)).every["position"].values()
+    places = scene.cycle(scene.mechanism.count(_TRIED), derivatives=0).position.values()
     return all(bool(np.isfinite(place).all()) for place in places)
 
 
@@ -1083,8 +1083,7 @@ def proved(scene: Scene, phase: float) -> Scene:
     """
     info = scene.info
     _ = info.class_name, info.grashof, info.change_points
-    # The attribute is read because a motion works out what is read of it; the picture reads the same.
-    _ = scene.cycle(scene.mechanism.count(_TRIED)).position
+    scene.cycle(scene.mechanism.count(_TRIED))
     scene.pose(phase)
     return scene
 

@@ -22,7 +22,7 @@ from linkanim.mechanics.arithmetic import Value
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.many import LinkageForm
 from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS, between, direction
-from linkanim.mechanics.motion import Lazy, Pose, ResultLayout, columns, layout
+from linkanim.mechanics.motion import Layout, Pose, arrays, laid_out, read_only
 from linkanim.mechanics.program import Array
 from linkanim.scenes.editing import Number, dimensions, numbers, with_dimensions, with_values
 from linkanim.scenes.files import load
@@ -67,7 +67,7 @@ class Many:
             for body in self.scene.linkage.bodies
             if body.slider is None
         }
-        return Lazy(ends, lambda name: direction(between(self.position, ends[name])))
+        return {name: direction(between(self.position, pair)) for name, pair in ends.items()}
 
 
 def solve_many(
@@ -109,34 +109,32 @@ def solve_many(
             left |= ~(row > SMALLEST)
     pose = partial(Scene.pose, derivatives=derivatives, speed=w, acceleration=a)
     if places is None:
-        places = _layout_of(pose(scene, 0.0), derivatives)
-        results = np.full((len(places.outputs), count), np.nan)
-    for n in np.flatnonzero(left) if left.any() else ():
-        results[:, n] = np.nan
+        places, rows_of = _layout_of(pose(scene, 0.0), derivatives)
+        results = np.full((rows_of, count), np.nan)
+    results[:, left] = np.nan
+    found = arrays(places, results, (count,))
+    for n in np.flatnonzero(left):
         try:
             one = with_dimensions(scene, {k.key: float(row[n]) for k, row in zip(chosen, rows, strict=True)})
         except LinkanimError:
             continue
-        _put(results[:, n], places, pose(one, float(phases[n])))
-    return Many(scene, phases, **{kind: columns(of, results, (count,)) for kind, of in places.places.items()})
+        alone = pose(one, float(phases[n]))
+        for kind, there in places.places.items():
+            for name in (name for name, place in there.items() if isinstance(place, int)):
+                found[kind][name][n] = getattr(alone, kind)[name]
+    for values in found.values():
+        read_only(tuple(values.values()))
+    return Many(scene, phases, **found)
 
 
-def _layout_of(pose: Pose, derivatives: int) -> ResultLayout:
-    """Return where the quantities of a pose lie in rows."""
+def _layout_of(pose: Pose, derivatives: int) -> tuple[Layout, int]:
+    """Return where the quantities of a pose lie in rows, and how many rows these are."""
     rows = {}
     for kind in (*VECTORS, *NUMBERS):
         if DERIVATIVE_OF[kind] <= derivatives:
             rows[kind] = {n: of if isinstance(of, tuple) else (of,) for n, of in getattr(pose, kind).items()}
-    return layout(rows, {}, ())
-
-
-def _put(column: Array, places: ResultLayout, pose: Pose) -> None:
-    """Write a pose into its column of the results."""
-    for kind, of in places.places.items():
-        values = getattr(pose, kind)
-        for name, place in of.items():
-            if place.fixed is None:
-                column[place.row : place.row + place.count] = values[name]
+    layout, outputs = laid_out(rows, {})
+    return layout, len(outputs)
 
 
 def _number(scene: Scene, name: str) -> Number:

@@ -65,8 +65,6 @@ def input_key(scene: Scene) -> str:
 
 def tree(scene: Scene, motion: Motion) -> Tree:
     """Return every quantity of N poses under its path, in the scene's unit, radians and seconds."""
-    for known in (motion, motion.per_input):
-        _ = known.every  # computes all kinds together, which else would each take a computation of their own
     found: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
     for quantity in recorded(scene.linkage):
         _put(found, quantity.path, _leaf(quantity.read(motion), motion))
@@ -491,7 +489,7 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float | None, acceleration: flo
     at = float(inputs.value)
     value = np.array([at])
     motion = solve(value)
-    if any(np.isnan(points).any() for points in motion.every["position"].values()):
+    if any(np.isnan(points).any() for points in motion.position.values()):
         raise _out_of_range(scene, at) if inputs.by != "travel" else _out_of_travel(scene, at)
     where = {input_key(scene): input_place(motion), "phase": motion.phase, inputs.by: value}
     yield RowBlock(np.degrees(value), {**where, **tree(scene, motion)})
