@@ -180,7 +180,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim new --photo digger.jpg",
     ),
     "record": (
-        "write a scene's true period as GIF, MP4 or numbered PNG",
+        "write a scene's true period as a GIF, a film, numbered pictures or slides",
         "linkanim record press",
         'linkanim record crank-rocker -o rocker.mp4 --speed "30 rpm" --chart rocker.angle',
         "linkanim record press --for beamer",
