@@ -468,7 +468,7 @@ def _spanned(state: State, sheet: BuildSheet, grip: Grip) -> State:
     """Take a point of the photograph, or a second one, whose distance from the first is then typed."""
     second = sheet.anchor is not None and sheet.span is None and dist(sheet.anchor, grip.begin) > grip.reach
     how = (
-        "Type how far it is from there in truth, then Enter"
+        "Type the true distance between the two, then Enter"
         if second
         else "Now click a point at a known distance"
     )
@@ -884,7 +884,7 @@ class OpenSheet(Mode):
                     "a point of the body at the cursor",
                     on("shift+return shift+kp_enter insert", "enter", 2),
                 ),
-                KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", tabs("tool_on")),
+                KeyRow("Tab, Shift+Tab", "the next tool; what else a drag can mean", tabs("tool_on")),
                 KeyRow("B", "the other closure", on("b", "reassemble")),
                 *_SHEET_KEYS,
             ),

@@ -303,7 +303,7 @@ def _of_thing(state: State, kind: str, name: str) -> Iterator[ListRow]:
     bodies = {body.name: body.joints for body in scene.linkage.bodies}
     joints = (name,) if kind == "joint" else bodies.get(name, ()) if kind == "link" else ()
     if kind == "joint":
-        words = "trace it no more" if name in scene.trace else "trace it"
+        words = "stop tracing it" if name in scene.trace else "trace it"
         yield ListRow(words, "", Action("trace_joint", name))
         if name in drives(scene):
             yield ListRow("make it the drive", "", Action("drive_joint", name))

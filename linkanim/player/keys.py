@@ -463,7 +463,7 @@ _APART: Mapping[Action, str] = {
     Action("further", 1): "the next one",
     Action("further", -1): "the one before",
     **{Action(one.action, one.value): one.name for one in TAKEN},
-    Action("tool_on", 1): "the next tool, or what the drag can mean else",
+    Action("tool_on", 1): "the next tool, or what else the drag can mean",
     Action("tool_on", -1): "the tool before",
     Action("remove"): "remove what is chosen",
     Action("keep"): "keep the linkage as the scene",

@@ -490,7 +490,7 @@ class Window:
     def _reload(self) -> None:
         """Show the scene file as it is now; where it is wrong a note says so, and the linkage runs on."""
         if self._file is None:
-            raise BadInput("this scene is of no file, to be loaded again; `linkanim FILE.toml` opens one")
+            raise BadInput("this scene was not loaded from a file; `linkanim FILE.toml` opens one")
         if self.state.recording:
             raise BadInput("a recording holds only the scenes that it began with; stop it, then press F5")
         scene = self._file.load()

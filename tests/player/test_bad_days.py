@@ -325,7 +325,7 @@ def test_a_recording_keeps_to_the_scene_it_began_with(
 
 def test_without_a_scene_file_there_is_none_to_load_again(player: Player) -> None:
     player.press(pygame.K_F5)
-    assert message(player).startswith("this scene is of no file")
+    assert message(player).startswith("this scene was not loaded from a file")
 
 
 @pytest.mark.parametrize(

@@ -156,7 +156,7 @@ def test_a_group_has_its_commands(group: str) -> None:
 THINGS: dict[str, tuple[str, str, str, Callable[[State], bool]]] = {
     "a joint": ("crank-rocker", "joint A", "chart its speed", lambda state: state.look.chart == "A.velocity"),
     "a trace": ("crank-rocker", "joint B", "trace it", lambda state: state.scene.trace == ("P", "B")),
-    "a trace less": ("crank-rocker", "joint P", "trace it no more", lambda state: state.scene.trace == ()),
+    "a trace less": ("crank-rocker", "joint P", "stop tracing it", lambda state: state.scene.trace == ()),
     "the drive": (
         *("crank-rocker", "joint B", "make it the drive"),
         lambda state: state.scene.linkage.drive.joint == "B",
