@@ -4,7 +4,8 @@ From the ground up; a module imports from those before it only:
 
     draft       what has been drawn, and how its things are named
     places      which dyad each joint is; places to numbers and back; the shapes to be seen of a draft
-    freedom     the degrees of freedom of a drawing: its joints' freedoms less the rank of what holds them
+    freedom     the degrees of freedom of a drawing, and its joints where all of its numbers hold
+    pose_form   a draft as points and links in one pose, which no chain of dyads can say, and back
     scene_form  a draft as the document of a scene file, and why there is none yet
     building    a draft with what is chosen and typed, the scene made from it, and undo
     gestures    what a hand draws, what is done to the chosen thing, what lies under the pointer

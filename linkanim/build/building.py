@@ -13,10 +13,13 @@ from typing import Any, Generic, TypeVar
 
 from linkanim.build.draft import DRIVE, Draft, Thing, numbered
 from linkanim.build.places import sides
+from linkanim.build.pose_form import draft_of_group
 from linkanim.build.scene_form import Made, made, phase_of, photo_of, table_of
 from linkanim.frozen import frozen
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.file_form import SHORTHANDS
+from linkanim.scenes.links import in_degrees
 from linkanim.scenes.scene import Scene
 
 # A draft being edited: what is drawn, what is chosen, what was typed, undo and redo.
@@ -80,11 +83,27 @@ def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: st
     settled = draft.having_all("sides", sides(draft))
     after = Building(settled, chosen, past=grown(building), sentence=sentence)
     scene, before = after.made.scene, building.made.scene
+    if scene and after.made.by_points:
+        after = as_drawn(after)
+        return knowing(posed(after, after.draft.phase), after.made)
     swung = bool(before and not before.info.full_turn)
     goes_on = before and not swung and _input(draft) == _input(building.draft)
     if scene is None or (goes_on and scene.info.full_turn):
         return after
     return replace(after, draft=replace(settled, phase=phase_of(scene, settled.places, swung=swung)))
+
+
+def as_drawn(building: Building) -> Building:
+    """Return the building at the phase of its drawn pose, from which links that are solved together start."""
+    made = building.made
+    if made.scene is None or not made.by_points:
+        return building
+    draft, at = building.draft, phase_of(made.scene, building.draft.places, by_points=True)
+    if "start" in draft.drive:
+        start = in_degrees(made.scene.linkage.drive.start)
+        draft = draft.having(*DRIVE, {**draft.drive, "start": start})
+    draft = replace(draft, phase=at, typed=draft.typed - {(*DRIVE, "start")})
+    return knowing(replace(building, draft=draft), made)
 
 
 def grown(building: Building) -> tuple[Draft, ...]:
@@ -110,8 +129,10 @@ def posed(building: Building, phase: float) -> Building:
     scene = building.made.scene
     if scene is None:
         return building
-    places = {**building.draft.places, **scene.pose(phase, 0).position}
-    return replace(building, draft=replace(building.draft, places=places, phase=phase))
+    position = scene.pose(phase, 0).position
+    places = {name: position.get(name, place) for name, place in building.draft.places.items()}
+    after = replace(building, draft=replace(building.draft, places=places, phase=phase))
+    return knowing(after, building.made) if building.made.by_points else after
 
 
 def choosing(building: Building, thing: Thing | None) -> Building:
@@ -135,19 +156,22 @@ def _standing(building: Building, step: Step[Draft] | None) -> Building:
         return replace(building, typed="", sentence="")
     draft, past, future = step
     chosen = building.chosen if building.chosen in set(draft.things()) else None
-    return choosing(replace(building, draft=draft, past=past, future=future), chosen)
+    return choosing(as_drawn(replace(building, draft=draft, past=past, future=future)), chosen)
 
 
 # From a scene back to a draft: each of its joints taken apart into what a hand would have drawn.
 
-_DRAWN = ("ground", "joints", "bodies", "springs", "dampers", "drive", "photo", *SHORTHANDS)
+_DRAWN = ("ground", "joints", "bodies", "springs", "dampers", "drive", "drives", "photo", *SHORTHANDS)
 
 _JUST_AFTER = 0.01
 
 
 def building_of(scene: Scene) -> Building:
     """Return a building that begins with a scene: its draft makes an equal scene."""
-    return Building(draft_of(scene))
+    if group_of(scene.linkage) is None:
+        return Building(draft_of(scene))
+    # the building makes this scene, whatever rounding its draft has
+    return as_drawn(knowing(Building(draft_of(scene)), Made(scene, "", by_points=True)))
 
 
 def draft_of(scene: Scene) -> Draft:
@@ -157,6 +181,9 @@ def draft_of(scene: Scene) -> Draft:
     Numbers stay as in its file; those that a shorthand gives are in the scene's unit.
     """
     document = scene.document
+    if group_of(scene.linkage):
+        photo = photo_of(document["photo"], scene.length_unit) if "photo" in document else None
+        return replace(draft_of_group(scene), photo=photo)
     short = {key: document[key] for key in SHORTHANDS if key in document}
     rest = {key: value for key, value in document.items() if key not in _DRAWN}
     rest |= {"title": scene.title, "length_unit": scene.length_unit}
@@ -175,6 +202,9 @@ def draft_of(scene: Scene) -> Draft:
         own = draft.of("bodies").get(body.name)
         stated = {"slider": body.slider} if body.slider else {"joints": list(body.joints)}
         draft = draft.having("bodies", body.name, own or stated)
+    for motor in document.get("drives", {}).values():
+        own = {key: value for key, value in motor.items() if key != "joint"}
+        draft = draft.having("drives", motor["joint"], own)
     drive = dict(document.get("drive", {}))
     if "slider" not in drive:
         drive = {"joint": scene.linkage.drive.joint} | drive

@@ -28,6 +28,7 @@ _FORMS: Mapping[str, Form] = {
     "springs": file_form.SPRING,
     "dampers": file_form.DAMPER,
     "drive": file_form.DRIVE,
+    "drives": Form(tuple(one for one in file_form.FURTHER.fields if one.key in ("speed", "start"))),
 }
 """The properties that each kind may have, in the form of a scene file."""
 _UNITS = {"angle": "deg", "speed": "rpm", "stiffness": "N/m", "damping": "N s/m", "ratio": ""}
@@ -245,7 +246,7 @@ def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
         if name in draft.of("pins"):
             yield from ((("pins", name, part), file_form.PLACE) for part in (0, 1))
             yield from ((("pins", name, one.key), one) for one in file_form.POLAR_PIN.fields)
-        for own in ("points", "yokes", "gears"):
+        for own in ("points", "yokes", "gears", "drives"):
             if name in draft.of(own):
                 yield from _of_form(_FORMS[own], draft.of(own)[name], (own, name))
         if name in draft.of("sliders"):
@@ -296,7 +297,7 @@ def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[K
             yield from _of_form(one.type, table[one.key], (*key, one.key))
         elif one.plain and one.plain.measure and one.key == "at":
             yield from (((*key, one.key, part), one) for part in (0, 1))
-        elif one.plain and one.plain.measure and not ("slider" in table and one.key == "start"):
+        elif one.plain and one.plain.measure and (one.key != "start" or not {"slider", "motor"} & {*table}):
             yield (*key, one.key), one
 
 

@@ -19,16 +19,19 @@ from linkanim.mechanics.linkage import Point
 Thing = tuple[str, str]
 """A thing that can be chosen: its kind, and its name among its kind."""
 Tables = Mapping[str, Mapping[str, Any]]
-KINDS = ("pins", "bars", "points", "guides", "sliders", "slots", "yokes", "gears", "springs", "dampers")
+KINDS = (
+    *("pins", "bars", "points", "guides", "sliders", "slots", "yokes", "gears", "drives", "springs"),
+    "dampers",
+)
 """The kinds of tables that are drawn; besides there are "sides", "bodies" and "drive"."""
 UNTITLED = "New linkage"
 """The title of a linkage until its file is written; then its class is the title."""
 JOINT, DRIVE = "joints", ("drive", "input")
 """The kind of a joint, fixed or not, and the one thing that drives."""
 _NAMING = {"guide": "guides", "bar": "bars"}
-OWN = ("pins", "points", "sliders", "yokes", "gears", "sides")
+OWN = ("pins", "points", "sliders", "yokes", "gears", "drives", "sides")
 """The kinds of tables whose names are those of joints."""
-_JOINTS = ("joints", "on", "between", "through", "with", "pin", "joint", "slider")
+_JOINTS = ("joints", "on", "between", "through", "with", "pin", "pivot", "joint", "slider")
 
 
 class Photo(NamedTuple):
@@ -60,7 +63,11 @@ class Draft:
         yokes    Y = { pin = "A", slot = "90 deg" }
         gears    D = { with = "A", ratio = -1, offset = "0 deg" }
         springs, dampers, bodies, drive (one, called "input"): as in a file
+        drives   D = { speed = "10 rpm", start = "0 deg" }: a further motor, of the crank to D
         sides    B = { joints = ["A", "O4"], side = "left" }: of the dyads as they were found
+
+    A drive between two links that both move is { motor = { pivot = "B", between = ["A", "C"] }, speed = … }:
+    at B, of the link to C on the link to A.
 
     `rest` is what else the file states. `typed` are the keys of the numbers that were typed: no drag changes
     them. `short` is the key of the shorthand that the draft came from, if any; None for a linkage that is to

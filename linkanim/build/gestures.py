@@ -9,6 +9,7 @@ from __future__ import annotations
 from cmath import phase, rect
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 from math import floor, inf, log10
 from typing import Any, Final
 
@@ -26,6 +27,7 @@ from linkanim.build.draft import (
     numbered,
     pin_name,
 )
+from linkanim.build.freedom import mobility
 from linkanim.build.places import (
     at_on,
     crank_of,
@@ -43,6 +45,7 @@ from linkanim.build.places import (
     snapped,
     with_number,
 )
+from linkanim.build.pose_form import bodies_of
 from linkanim.build.scene_form import made
 
 # What a hand draws, by name: each gesture returns another building, or the same one and why.
@@ -365,20 +368,49 @@ def trace(building: Building) -> Building:
 
 
 def drive(building: Building) -> Building:
-    """Return the building with the chosen thing as the drive: a crank, its bar, or a slider."""
-    draft = building.draft
-    joint = _drivable(draft, building.chosen)
-    if joint is None:
-        return refused(building, "Choose a crank (a bar on a ground pin) or a slider to drive it")
-    draft = draft.having("gears", joint, None)
-    if joint in draft.of("sliders"):
-        tables = _slider_drives(draft, joint)
-    else:
+    """Return the building with the chosen thing as the drive: a crank, a slider, a joint of two bars."""
+    return next(drives(building))[1]
+
+
+def drives(building: Building) -> Iterator[tuple[str, Building]]:
+    """Yield the ways in which the chosen thing can be driven, in words, and the buildings with them.
+
+    Of a ground pin that is a bar on it; of a joint that moves the bar from a ground pin, a slider, or a motor
+    between two bars. Where the links are free enough, and none hangs loose, a further motor comes first.
+    """
+    draft, thing, found = building.draft, building.chosen, list[tuple[str, Building]]()
+    for joint in _drivable(draft, thing):
+        bare = draft.having("gears", joint, None).having("drives", joint, None)
+        if joint in draft.of("sliders"):
+            slides = _slider_drives(draft, joint)
+            found.append((f"{joint} slides", driven(building, bare, slides, thing, f"{joint} is driven")))
+            continue
         pivot = str(crank_of(draft, joint))
-        tables = [
-            crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
-        ]
-    return driven(building, draft, tables, building.chosen, f"{joint} is driven")
+        table = crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
+        one = driven(building, bare, [table], thing, f"{joint} is driven")
+        found.append((f"{joint} turns about {pivot}", one))
+        turned = joint != draft.driven and draft.driven and not draft.drive.keys() & {"cylinder", "slider"}
+        if turned and mobility(bare) > 1 + len(bare.of("drives")):
+            words = f"{joint} has a motor, too"
+            further = {"speed": table["speed"], "start": table["start"]}
+            more = changed(building, bare.having("drives", joint, further), thing, words)
+            place = 0 if more.made.scene else len(found)
+            found.insert(place, (f"{joint} turns about {pivot}, too", more))
+    for pivot, arms in _moving_motors(draft, thing):
+        speed = draft.drive.get("speed", SPEED)
+        table = {"motor": {"pivot": pivot, "between": [*arms]}, "speed": speed}
+        words = f"{arms[1]} turns about {pivot} on the link to {arms[0]}"
+        found.append((words, driven(building, draft, [table], thing, f"The motor is at {pivot}")))
+    if not found:
+        why = "Choose a crank (a bar on a ground pin), a slider, or a joint of two bars to drive it"
+        found.append(("", refused(building, why)))
+    yield from found
+
+
+def motor(building: Building, x: float, y: float, *, reach: float) -> Building:
+    """Return the building with the thing at a point chosen, for a motor to be let go there."""
+    thing = under(building.draft, x, y, reach)
+    return choosing(building, thing) if thing else refused(building, "Let the motor go on a joint, or a bar")
 
 
 def delete(building: Building) -> Building:
@@ -394,16 +426,28 @@ def delete(building: Building) -> Building:
     return changed(building, left, None, f"Removed {first}{with_it}")
 
 
-def _drivable(draft: Draft, thing: Thing | None) -> str | None:
-    """Return the joint to drive for a thing: the moving end of a crank, or a slider; None for others."""
-    pins = draft.of("pins")
-    if thing and thing[0] == "bars":
-        first, second = draft.ends(thing[1])
-        return second if first in pins else first if second in pins else None
-    if thing and thing[0] == JOINT and thing[1] not in pins:
-        is_crank = any(end in pins for _, end, _ in draft.bars_at(thing[1]))
-        return thing[1] if is_crank or thing[1] in draft.of("sliders") else None
-    return None
+def _drivable(draft: Draft, thing: Thing | None) -> Iterator[str]:
+    """Yield the joints to drive for a thing: moving ends of cranks, or a slider."""
+    pins, (kind, name) = draft.of("pins"), thing or ("", "")
+    if kind == "bars":
+        first, second = draft.ends(name)
+        yield from [second] if first in pins else [first] if second in pins else []
+    elif kind == JOINT and name in pins:
+        yield from (end for _, end, _ in draft.bars_at(name))
+    elif kind == JOINT:
+        is_crank = any(end in pins for _, end, _ in draft.bars_at(name))
+        yield from [name] if is_crank or name in draft.of("sliders") else []
+
+
+def _moving_motors(draft: Draft, thing: Thing | None) -> Iterator[tuple[str, tuple[str, str]]]:
+    """Yield the motors at a joint, or at the joints of a bar, between two bodies that both move."""
+    kind, name = thing or ("", "")
+    pivots = [name] if kind == JOINT else draft.ends(name) if kind == "bars" else []
+    for pivot in pivots:
+        arms = [next(end for end in body if end != pivot) for body in bodies_of(draft) if pivot in body]
+        # a chosen bar turns on the other one
+        arms.sort(key=lambda arm: kind == "bars" and draft.bar(pivot, arm) == name)
+        yield from ((pivot, arms_of_two) for arms_of_two in combinations(arms, 2))
 
 
 def _slider_drives(draft: Draft, joint: str) -> list[dict[str, Any]]:

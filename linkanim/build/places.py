@@ -150,6 +150,8 @@ def _ways(draft: Draft, name: str, known: set[str], plates: list[RigidBody]) -> 
     gear, point, yoke = (draft.of(kind).get(name) for kind in ("gears", "points", "yokes"))
     if name == draft.driven:
         yield from _driven(draft, bars, line)
+    elif name in draft.of("drives"):
+        yield from ({"crank": end, "length": length} for end, length in bars if end in draft.of("pins"))
     elif gear and gear["with"] in known:
         yield from ({"crank": end, "length": length, "gear": gear} for end, length in bars)
     if point and known.issuperset(point["on"]):

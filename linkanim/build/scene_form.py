@@ -15,8 +15,9 @@ from typing import Any
 
 from linkanim import units
 from linkanim.build.draft import Draft, Photo, named_in
-from linkanim.build.freedom import mobility
+from linkanim.build.freedom import mobility, redundant_bar
 from linkanim.build.places import Found, ends_of, found, place_of, plates_of
+from linkanim.build.pose_form import posed_tables
 from linkanim.errors import BadInput, UnitError
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint, Pin, Point, Rigid
@@ -236,7 +237,7 @@ _HOLDING = ("points", "bars", "sliders", "slots", "yokes", "gears")
 """The kinds that hold joints."""
 _OWN = ("points", "sliders", "yokes", "gears")
 _APART = r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths>.*) cannot meet"
-_KEYS = r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?"
+_KEYS = r"^draft: (joints: |links: |points: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?"
 
 
 def missing(draft: Draft, known: Found) -> str:
@@ -245,9 +246,12 @@ def missing(draft: Draft, known: Found) -> str:
         return EMPTY
     if not draft.of("bars") and not draft.of("sliders"):
         return "No bar yet: drag one from a ground pin"
-    if draft.driven is None:
+    if draft.driven is None and "motor" not in draft.drive:
         return "Nothing is driven: choose a crank or a slider, and make it the drive"
-    return _too_many(draft, known) or _unfound(draft, known)
+    motors = 1 + len(draft.of("drives"))
+    if motors > 1 and 0 < mobility(draft) < motors:
+        return f"Mobility {mobility(draft)}, but {motors} motors: remove one"
+    return _too_many(draft, known) or _free(draft, known)
 
 
 def reworded(draft: Draft, error: BadInput) -> str:
@@ -257,6 +261,7 @@ def reworded(draft: Draft, error: BadInput) -> str:
         joint = apart["joint"]
         names = [_body_of(draft, joint, end) for _, end, _ in draft.bars_at(joint)]
         return f"Bars {' and '.join(names[:2])} ({apart['lengths']}) cannot meet{text[apart.end() :]}"
+    text = text.replace("give the points in another pose", "move a joint, or turn the crank first")
     name = (re.match(_KEYS, text) or {"name": None})["name"]
     text = f"{name or ''}: {re.sub(_KEYS, '', text)}".removeprefix(": ")
     return text[:1].upper() + text[1:]
@@ -284,8 +289,8 @@ def _too_many(draft: Draft, known: Found) -> str:
             return f"Bar {_body_of(draft, one, other)} ({bar}) is one too many: {why}; remove a bar"
     for kind, key in (("sliders", "line"), ("yokes", "slide"), ("gears", "gear")):
         for name in draft.of(kind):
-            table = known.get(name, {})
-            if table and key not in table and not (kind == "sliders" and "slide" in table):
+            table, settled = known.get(name, {}), _named(draft, draft.of(kind)[name]) <= {*known, *pins}
+            if table and settled and key not in table and not (kind == "sliders" and "slide" in table):
                 return f"The {_WORDS[kind]} of {name} is one too many: it is held without it; remove one"
     for name, slot in draft.of("slots").items():
         held = {slot["through"], *draft.ends(slot["bar"])}
@@ -312,30 +317,25 @@ def _third(draft: Draft, one: str, other: str) -> str | None:
     return min((near[0] & near[1]) - {one, other}, default=None)
 
 
-def _unfound(draft: Draft, known: Found) -> str:
-    """Say which joints are loose, or can only be solved together; "" where every joint is found."""
+def _free(draft: Draft, known: Found) -> str:
+    """Say how many bars are missing, or too many, for the drives; "" for a chain of dyads, or what moves."""
     stuck = [name for name in draft.places if name not in known and name not in draft.of("pins")]
     if not stuck:
         return ""
-    free = mobility(draft)
-    if free > 1:
-        bars = "one more bar" if free == 2 else f"{free - 1} more bars"
+    free, motors = mobility(draft), 1 + len(draft.of("drives"))
+    if free > motors:
+        more = "one more bar" if free == motors + 1 else f"{free - motors} more bars"
+        another = f"{('a second', 'a third')[motors - 1] if motors < 3 else 'another'} motor"
         hanging = next((name for name in stuck if len(list(draft.bars_at(name))) < 2), stuck[0])
-        return f"Mobility {free}: {bars}, or a second drive (a gear pair); {hanging} is loose"
+        return f"Mobility {free}: {more}, {another} or a gear pair; {hanging} is loose"
     for group in (_together(draft, stuck, name) for name in stuck):
         if mobility(draft, group | known.keys()) < 1:
             return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
-    group = _together(draft, stuck, stuck[0])
-    begin = next((name for name in stuck if any(end in known for _, end, _ in draft.bars_at(name))), stuck[0])
-    others = ", ".join(name for name in draft.places if name in group and name != begin)
-    if not others:
-        return (
-            f"{begin} is held as no dyad holds it: two bars meet, or a bar and a guide, or a bar and a slot"
-        )
-    return (
-        f"A triad begins at {begin}: it is found only together with {others}, which no chain of dyads can; "
-        "drive another crank"
-    )
+    if bar := redundant_bar(draft):
+        one, other = draft.ends(bar)
+        why = f"{one} and {other} are held without it"
+        return f"Bar {_body_of(draft, one, other)} ({bar}) is one too many: {why}; remove a bar"
+    return ""
 
 
 def _together(draft: Draft, stuck: list[str], begin: str) -> set[str]:
@@ -352,10 +352,14 @@ def _holds(draft: Draft) -> Iterator[set[str]]:
     """Yield the joints that each constraint names."""
     for kind in _HOLDING:
         for name, table in draft.of(kind).items():
-            guide = draft.of("guides").get(table.get("guide"), {})
-            bar = draft.of("bars").get(table.get("bar"), {})
-            named = {joint for each in (table, guide, bar) for _, joint in named_in(each)}
-            yield (named | ({name} if kind in _OWN else set())) & draft.places.keys()
+            yield _named(draft, table) | ({name} if kind in _OWN else set())
+
+
+def _named(draft: Draft, table: Mapping[str, Any]) -> set[str]:
+    """Return the joints that a table names, or its guide or bar."""
+    guide = draft.of("guides").get(str(table.get("guide")), {})
+    bar = draft.of("bars").get(str(table.get("bar")), {})
+    return {joint for each in (table, guide, bar) for _, joint in named_in(each)} & draft.places.keys()
 
 
 def _body_of(draft: Draft, one: str, other: str) -> str:
@@ -367,31 +371,54 @@ def _body_of(draft: Draft, one: str, other: str) -> str:
 
 NAME = "draft"
 """The name of a draft's scene, and of its file, unless it has another."""
+_WAYS = 16
+"""The phases of a turn from which the drawn pose is looked for."""
 _FORCE = {"stiffness", "free_length"}
-_AFTER = ("bodies", "springs", "dampers")
 
 
 class Made(NamedTuple):
-    """The result of a draft: its scene, or None, and words on what is missing for a scene."""
+    """The result of a draft: its scene, or None, and words on what is missing for a scene.
+
+    The scene is told `by_points` in the drawn pose where no chain of dyads has all joints.
+    """
 
     scene: Scene | None
     missing: str
+    by_points: bool = False
+
+    @property
+    def listed(self) -> Scene | None:
+        """The scene whose dimensions the draft has; None where the draft's own numbers are all there are."""
+        return None if self.by_points else self.scene
+
+
+def is_chain(draft: Draft, joints: Found) -> bool:
+    """Return whether a chain of dyads finds all joints."""
+    return draft.places.keys() <= {*joints, *draft.of("pins")}
 
 
 def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
-    """Return the document of a scene file for a draft; `joints` are its found joints."""
-    # A single crank without a gear is driven without being named.
-    drive = {key: value for key, value in draft.drive.items() if key != "joint"}
-    stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": drive}
-    stated |= {"ground": draft.of("pins"), "joints": joints}
-    stated |= {kind: draft.of(kind) for kind in _AFTER}
+    """Return the document of a scene file for a draft: joint by joint where a chain of dyads has them all.
+
+    `joints` are those that the chain finds. Else it is that of points in a pose; BadInput where none is near.
+    """
+    stated = {key: value for key, value in draft.rest.items() if key != "trace"}
+    chained = is_chain(draft, joints)
+    if chained:
+        further = draft.of("drives")
+        # A single crank without a gear is driven without being named.
+        drive = {key: value for key, value in draft.drive.items() if key != "joint" or further}
+        stated |= {"drive": drive, "drives": {name: {"joint": name, **one} for name, one in further.items()}}
+        stated |= {"ground": draft.of("pins"), "joints": joints, "bodies": draft.of("bodies")}
+    else:
+        stated |= posed_tables(draft)
     stated["springs"] = {name: _whole(spring) for name, spring in draft.of("springs").items()}
-    trace = [name for name in draft.trace if name in draft.of("pins") or name in joints]
+    stated["dampers"] = draft.of("dampers")
+    trace = [name for name in draft.trace if name in draft.places]
     stated |= {"trace": {"joints": trace}}
     stated |= {"photo": photo_table(draft.photo) if draft.photo else {}}
-    return shortened(
-        draft, {key: value for key, value in stated.items() if value not in ({}, {"joints": []})}
-    )
+    whole = {key: value for key, value in stated.items() if value not in ({}, {"joints": []})}
+    return shortened(draft, whole) if chained else whole
 
 
 def made(draft: Draft, name: str = NAME) -> Made:
@@ -403,15 +430,23 @@ def made(draft: Draft, name: str = NAME) -> Made:
         scene = scene_from(document(draft, joints), name=name, where=name)
     except BadInput as error:
         return Made(None, reworded(draft, error))
-    return Made(scene, "")
+    return Made(scene, "", by_points=not is_chain(draft, joints))
 
 
-def phase_of(scene: Scene, places: Mapping[str, Point], *, swung: bool) -> float:
+def phase_of(
+    scene: Scene, places: Mapping[str, Point], *, swung: bool = False, by_points: bool = False
+) -> float:
     """Return the phase at which a scene has its drawn pose.
 
     It is 0 for an input that turns fully, which starts as drawn, unless it `swung` before. For an input that
-    goes there and back, it is on the way on which all joints are nearest to where they were drawn.
+    goes there and back, it is on the way on which all joints are nearest to where they were drawn. Where the
+    scene is told `by_points`, it is that of their pose.
     """
+    if by_points:
+        solved, start = scene.mechanism, scene.linkage.drive.start
+        ways = (n * scene.period / (_WAYS * solved.periods) for n in range(_WAYS * solved.periods))
+        found = dict.fromkeys(round(solved.phase_of(start, way), 12) for way in ways)
+        return min((0.0, *found), key=partial(_off, scene, places))
     if scene.info.full_turn and not swung:
         return 0.0
     driven = places[scene.linkage.drive.joint]
@@ -422,7 +457,7 @@ def phase_of(scene: Scene, places: Mapping[str, Point], *, swung: bool) -> float
 def _off(scene: Scene, places: Mapping[str, Point], phase: float) -> float:
     """Return the greatest distance of a joint from its place."""
     pose = scene.pose(phase, 0).position
-    return max(dist(place, places[name]) for name, place in pose.items())
+    return max(dist(pose[name], place) for name, place in places.items())
 
 
 def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -597,7 +597,7 @@ def agreed(before: State, after: State) -> State:
     if sheet is None:
         return after
     is_old = was is not None and sheet.building is was.building
-    if is_old and after.scene is not before.scene and sheet.building.made.scene:
+    if is_old and after.scene is not before.scene and sheet.building.made.listed:
         grows = after.editing.past is not before.editing.past
         building = renumbered(sheet.building, after.scene, grows=grows)
         editing = replace(after.editing, past=before.editing.past, future=before.editing.future)
@@ -620,7 +620,7 @@ def _rowed(state: State) -> State:
     """Return the state with the first row of the chosen thing as the chosen row of the list."""
     state = _with(state, rowed=True)
     sheet = sheet_of(state)
-    thing, scene = sheet.building.chosen, sheet.building.made.scene
+    thing, scene = sheet.building.chosen, sheet.building.made.listed
     if thing is None or scene is None:
         return state
     things = [thing_at(sheet.building.draft, scene, item.key) for item in dimensions_of(scene)]
@@ -632,7 +632,7 @@ def _rowed(state: State) -> State:
 def _chosen_by_row(state: State) -> State:
     """Return the state with the thing of the list's chosen row chosen on the sheet."""
     sheet = sheet_of(state)
-    scene, items = sheet.building.made.scene, dimensions_of(state.scene)
+    scene, items = sheet.building.made.listed, dimensions_of(state.scene)
     if scene is None or not items:
         return state
     key = items[state.editing.chosen % len(items)].key
@@ -641,7 +641,7 @@ def _chosen_by_row(state: State) -> State:
 
 
 def _in_rows(work: Callable[[State, BuildSheet, Any], State]) -> Handler:
-    """Make a handler of a function for the list while the draft does not move."""
+    """Make a handler of a function for the list where its rows are the draft's own."""
 
     def handle(state: State, value: Any) -> State:
         sheet = state.building
@@ -689,7 +689,7 @@ def _passed_on(state: State, further: int) -> State:
 
 
 _OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _taken, "pass_on": _passed_on}
-_WHILE_IT_STANDS: Mapping[str, Handler] = {
+_DRAFT_ROWS: Mapping[str, Handler] = {
     "choose": _in_rows(_row_further),
     "pass_on": _in_rows(_row_further),
     "grab_row": _in_rows(_row_chosen),
@@ -698,7 +698,7 @@ _WHILE_IT_STANDS: Mapping[str, Handler] = {
     **dict.fromkeys(("pull", "reset", "returns", "grab", "carry"), _unused),
     "closure": reassemble,
 }
-"""Handlers for the list of dimensions on a sheet with nothing that moves: its rows are the draft's."""
+"""Handlers for the list of dimensions on a sheet where its rows are the draft's own."""
 
 
 def let_go(state: State) -> State | None:
@@ -810,7 +810,7 @@ def _in_list(name: str, usual: Handler | None) -> Handler:
 
     def handle(state: State, value: Any) -> State:
         sheet = state.building
-        own = _WHILE_IT_STANDS if sheet and sheet.building.made.scene is None else {}
+        own = _DRAFT_ROWS if sheet and sheet.building.made.listed is None else {}
         own = own or (_OWN_ROWS if sheet and sheet.rowed else {})
         work = own.get(name, usual)
         return work(state, value) if work else state
@@ -828,7 +828,7 @@ _LIST_ACTIONS: Mapping[str, tuple[Callable[[object], bool], Handler]] = {
 
 
 def _panel_of_draft(building: Building) -> Panel:
-    """Return the list of all numbers of a draft that does not move, and what is missing for it to move."""
+    """Return the list of all numbers of a draft, as of one that does not move."""
     draft, at = building.draft, chosen_row(building)
     rows = (
         EditRow(
@@ -1046,7 +1046,7 @@ class SheetNumbers(Dimensions):
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list of the linkage, or of the draft where nothing moves."""
         sheet = sheet_of(state)
-        if sheet.building.made.scene is None:
+        if sheet.building.made.listed is None:
             return replace(over, panel=_panel_of_draft(sheet.building))
         items = dimensions_of(in_unit(state.scene, state.look.unit))
         lines = () if sheet.rowed else tuple(measured(state, items))

@@ -58,7 +58,8 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
     building, seen = sheet.building, sheet.seen(state.scene, state.phase)
     shapes = drawn(seen)
     moves = building.made.scene is not None
-    measured = state.edits_dimensions and moves and not sheet.rowed  # as beside the list of dimensions
+    # as beside the list of dimensions
+    measured = state.edits_dimensions and building.made.listed is not None and not sheet.rowed
     sentence, facts = _words(state, sheet)
     tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
     return BuildShown(

@@ -72,7 +72,7 @@ def after(seed: int, steps: int) -> None:
     for _ in range(steps):
         line = any_gesture(random, building)
         building = gesture(building, line)
-        scene, why = building.made
+        scene, why = building.made[:2]
         assert (scene is None) == bool(why), (seed, line)
         assert len(drawn(building.draft)) >= len(building.draft.places)
     if scene:
