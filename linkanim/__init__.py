@@ -3,16 +3,17 @@
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
 or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` poses into linkages whose
 coupler passes them, `function` a function into linkages that generate it, `quick_return` a time ratio
-into linkages that have it, `make` a scene into parts to cut and pin together; `solve_many` solves a
-scene with many lengths in one call, `tolerance` says how far it is off when its lengths are. Everything is
-imported when first asked for: `import linkanim` alone brings in neither a window nor an encoder.
+into linkages that have it, `dwell` a rest into linkages that keep it, `make` a scene into parts to cut and
+pin together; `solve_many` solves a scene with many lengths in one call, `tolerance` says how far it is off
+when its lengths are. Everything is imported when first asked for: `import linkanim` alone brings in neither
+a window nor an encoder.
 
 The rooms, from the ground up. Each imports only from those before it; its docstring lists its modules in
 the order in which they are read:
 
     mechanics  what a linkage is and how it moves; `mechanics.solver` is for `mechanics` alone
     scenes     the catalogue, and scene files
-    synthesis  linkages for a path, poses, a function, a time ratio
+    synthesis  linkages for a path, poses, a function, a time ratio, a rest
     build      a linkage drawn by hand
     picture    everything between a pose and pixels
     explain    a pose worked out by hand: formulas, steps, joints, chapters, documents
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from linkanim.scenes.deviation import tolerance
     from linkanim.scenes.many import solve_many
     from linkanim.scenes.scene import Scene
+    from linkanim.synthesis.dwells import dwell
     from linkanim.synthesis.generation import function
     from linkanim.synthesis.guidance import guide
     from linkanim.synthesis.path import path
@@ -68,6 +70,7 @@ __all__ = [
     "Look",
     "Scene",
     "__version__",
+    "dwell",
     "function",
     "guide",
     "load",
@@ -84,6 +87,7 @@ _HOME = {
     "LinkanimError": "linkanim.errors",
     "Look": "linkanim.picture.look",
     "Scene": "linkanim.scenes.scene",
+    "dwell": "linkanim.synthesis.dwells",
     "function": "linkanim.synthesis.generation",
     "guide": "linkanim.synthesis.guidance",
     "load": "linkanim.scenes",

@@ -278,10 +278,14 @@ def test_every_kind_of_quantity_is_defined(tmp_path: Path) -> None:
 PRINTED: Mapping[str, list[list[str]]] = {
     "solve": [["press", "--angle", "1 rad"], ["driven-piston", "--phase", "1 rad"]],
     "info": [[name] for name in ("crank-rocker", "press", "engine", "rocker-driven", "pumpjack")],
-    "path": [["curve.csv", "--count", "1"]],
-    "guide": [["poses.csv", "--count", "1"]],
-    "function": [["x^2", "--from", "0", "--to", "1", "--input", "90 deg", "--output", "60 deg"]],
+    "path": [["curve.csv", "--count", "1"], ["arc.csv", "--open", "--driver", "--count", "3"]],
+    "guide": [["poses.csv", "--kind", "slider-crank", "--driver"]],
+    "function": [["x^2", "--from", "0", "--to", "1", "--input", "60 deg", "--output", "60 deg", "--driver"]],
     "quick-return": [["--stroke", "80", "--ratio", "1.4"], ["--swing", "60 deg", "--ratio", "1.25"]],
+    "dwell": [
+        ["--rest", "90 deg", "--stroke", "50"],
+        ["--rest", "90 deg", "--swing", "40 deg", "--count", "1"],
+    ],
     "quiz": [["press", "-n", "1"]],
     "make": [["crank-rocker"]],
     "closures": [["kite"]],
@@ -300,13 +304,14 @@ def test_the_page_on_json_lists_the_keys_that_are_printed(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("curve.csv").write_text("0,0\n40,5\n70,30\n40,45\n5,30\n", encoding="utf-8")
+    Path("arc.csv").write_text("0,0\n20,8\n40,12\n60,12\n80,8\n100,0\n", encoding="utf-8")
     Path("poses.csv").write_text("0,0,0\n40,10,34\n70,-5,80\n", encoding="utf-8")
     Path("driven.toml").write_text(DRIVEN_SLIDER, encoding="utf-8")
     printed: set[str] = set()
     for words in PRINTED[command]:
         assert main([command, *words, "--json"]) == 0
         found = json.loads(capsys.readouterr().out)
-        printed |= (found[0] if isinstance(found, list) else found).keys()
+        printed = printed.union(*(found if isinstance(found, list) else [found]))
     page = (MANUAL / "json.md").read_text(encoding="utf-8")
     section = page.split(f"## {command} --json\n")[1].split("\n## ")[0]
     listed = re.findall(r"^\| (`.*?) \|", section, re.MULTILINE)

@@ -26,6 +26,7 @@ _WITHOUT_PYGAME = (
     "guide",
     "function",
     "quick-return",
+    "dwell",
     "completion",
 )
 
@@ -280,6 +281,12 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim quick-return --stroke 80 --ratio 1.4",
         'linkanim quick-return --swing "60 deg" --ratio 1.25 -o rocker.toml --count 1',
         'linkanim quick-return --stroke "8 cm" --ratio 1.4 --place 0.5 --json',
+    ),
+    "dwell": (
+        "find six-bars whose output rests while the crank turns on, and write them as scenes",
+        'linkanim dwell --rest "120 deg" --swing "30 deg"',
+        'linkanim dwell --rest "90 deg" --stroke 50 -o feeder.toml --count 1',
+        'linkanim dwell --rest "150 deg" --stroke "4 cm" --least-angle "40 deg" --json',
     ),
     "make": (
         "write a scene as parts to cut or print, in layers, with instructions for assembly",

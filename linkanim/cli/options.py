@@ -887,6 +887,25 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output("write the best to NAME.toml, the others to NAME-2.toml, ... (default: quick-return.toml)"),
         _flag("--json", "print a list of objects; angles in radians"),
     ),
+    "dwell": (
+        _value(
+            "--rest ANGLE",
+            units.angle,
+            'how far the crank turns while the output rests, such as "120 deg"',
+            required=True,
+        ),
+        _value("--swing ANGLE", units.angle, 'the whole swing of a rocker, such as "30 deg"'),
+        _value("--stroke L", length, "the whole stroke of a slider in mm, in place of a swing"),
+        _value(
+            "--least-angle ANGLE",
+            units.angle,
+            "the least transmission angle allowed (default: 30 deg)",
+            math.radians(30),
+        ),
+        _value("--count N", count, "the number of answers (default: 5)", 5),
+        _output("write the best to NAME.toml, the others to NAME-2.toml, ... (default: dwell.toml)"),
+        _flag("--json", "print a list of objects; angles in radians"),
+    ),
     "make": (
         _SCENE,
         _value("-o --output FOLDER", Path, "the folder to write, or to write anew"),

@@ -18,5 +18,6 @@ From the ground up; a module imports from those before it only:
     generation     `linkanim.function`: a function of the input
     follower       paths and poses beside the window, while they are drawn
     quick_returns  `linkanim.quick_return`: a time ratio
+    dwells         `linkanim.dwell`: an output that rests
     constructions  how each linkage was made, drawn step by step
 """

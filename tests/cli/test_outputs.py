@@ -174,6 +174,7 @@ SEARCHES = {
         ("quick-return", "--stroke", "80", "--ratio", "1.4", "--count", "3", "-o", "p.toml"),
         "quick_return",
     ),
+    "dwell": (("dwell", "--rest", "90 deg", "--stroke", "50", "--count", "3", "-o", "p.toml"), "dwell"),
 }
 
 
