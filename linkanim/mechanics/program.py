@@ -105,7 +105,7 @@ CACHE_LINE, SIZE = 64, 8
 """Bytes of a processor's cache line, and of a number."""
 _FEW, _NOTED = 200_000, 2
 """A program runs uncompiled for up to this many numbers in all, and up to this many times."""
-MANY = 30_000
+MANY = 100_000
 """After so many poses a program is compiled to machine code: in 10 ms, with the import of llvmlite in 50."""
 CHECKED = 1_000
 """The poses that are worked out in both ways then."""
