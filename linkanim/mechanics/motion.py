@@ -211,6 +211,7 @@ class Strut(NamedTuple):
 class Asked(NamedTuple):
     """What a motion is solved for: instants (N,) and the input's `rates`, in a shape, up to derivatives.
 
+    Of `joints`, if any are named, positions, velocities and accelerations are solved and nothing else.
     `distances` tells, for the angles of an input that swings, how far they are from its limits. Where the
     input comes back through the same poses, `phases` are the phases asked for, `x` those of the same poses on
     the way up, and `back` says which are on the way back: there the rates have the other sign.
@@ -221,6 +222,7 @@ class Asked(NamedTuple):
     rates: tuple[Any, Any]
     shape: tuple[int, ...]
     derivatives: int
+    joints: tuple[str, ...] | None = None
     distances: LimitDistances | None = None
     phases: Array | None = None
     back: NDArray[np.bool_] | None = None
@@ -374,9 +376,9 @@ class Motion(Derived[Array, Array]):
 
     asked: Asked
 
-    def __init__(self, mechanism: Mechanism, asked: Asked) -> None:
+    def __init__(self, mechanism: Mechanism, asked: Asked, out: Array | None = None) -> None:
         speed, acceleration = (_shaped(rate, asked.shape) for rate in asked.rates)
-        vars(self).update(mechanism.solved(asked))
+        vars(self).update(mechanism.solved(asked, out))
         vars(self).update(
             mechanism=mechanism, asked=asked, input_speed=speed, input_acceleration=acceleration
         )
@@ -408,18 +410,31 @@ class Motion(Derived[Array, Array]):
     @cached_property
     def coordinate(self) -> Array:  # type: ignore[override]
         """Where the input is; an input that swings by phase has it solved."""
+        if self._swings_unseen:
+            return self._driven.coordinate
         x = self.asked.x.reshape(self.asked.shape)
         return read_only(self.mechanism.assembly.path.coordinates(x)) if self.asked.variant.by_phase else x
 
     @cached_property
     def coordinate_rate(self) -> Any:
         """How fast the input moves; one that swings by phase has it solved."""
-        return self.input_speed
+        return self._driven.coordinate_rate if self._swings_unseen else self.input_speed
 
     @cached_property
     def coordinate_second(self) -> Any:
         """How the input's rate changes; one that swings by phase has it solved."""
-        return self.input_acceleration
+        return self._driven.coordinate_second if self._swings_unseen else self.input_acceleration
+
+    @property
+    def _swings_unseen(self) -> bool:
+        """Whether the input's coordinate follows from formulas of which no joint that was named is a part."""
+        asked = self.asked
+        return asked.joints is not None and asked.variant.by_phase and not self.mechanism.full_turn
+
+    @cached_property
+    def _driven(self) -> Motion:
+        """The same instants with what the input does."""
+        return Motion(self.mechanism, self.asked._replace(joints=None, derivatives=0))
 
     @cached_property
     def per_input(self) -> Motion:
@@ -458,8 +473,8 @@ class Motion(Derived[Array, Array]):
 
     def _direction(self, ends: tuple[str, str], x: Array) -> Array:
         """Return the direction of one joint to another at other instants."""
-        by = "phase" if self.asked.variant.by_phase else "angle"
-        found = self.mechanism.solve(**{by: x}, speed=1.0, derivatives=0).position
+        angle, phase = (None, x) if self.asked.variant.by_phase else (x, None)
+        found = self.mechanism.solve(angle=angle, phase=phase, speed=1.0, derivatives=0).position
         return np.asarray(direction(between(found, ends)))
 
 
@@ -634,7 +649,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[tuple[Variant, int], tuple[Batch, Layout]]:
+    def _programs(self) -> dict[tuple[Variant, int, tuple[str, ...] | None], tuple[Batch, Layout]]:
         return {}
 
     def pose(
@@ -715,8 +730,14 @@ class Mechanism:
         speed: ArrayLike,
         acceleration: ArrayLike = 0.0,
         derivatives: int = 2,
+        joints: tuple[str, ...] | None = None,
+        out: Array | None = None,
     ) -> Motion:
-        """Return the motion at crank angles, or at phases; scalar or any shape."""
+        """Return the motion at crank angles, or at phases; scalar or any shape.
+
+        It is written into `out`, if given: (derivatives + 1, joints, 2, *shape) of the `joints` that are
+        named. ValueError where that is not its shape.
+        """
         given = np.asarray(angle if phase is None else phase, dtype=np.float64)
         shown = None
         if phase is not None and self.assembly.path.way:
@@ -724,44 +745,68 @@ class Mechanism:
         rates, shape = _rates(speed, acceleration, given.shape)
         varying = isinstance(rates[0], np.ndarray)
         x, variant = _kept(given, shape), Variant(phase is not None, varying or rates[1] != 0.0, varying)
-        asked = Asked(variant, x, rates, shape, derivatives)
+        asked = Asked(variant, x, rates, shape, derivatives, joints)
         if shown is not None:
             back = np.broadcast_to(sign < 0, shape).reshape(-1)
             asked = asked._replace(phases=_kept(shown, shape), back=back)
         elif phase is None:
             asked = asked._replace(distances=self.assembly.path.distances(x))
-        return Motion(self, asked)
+        if out is not None:
+            wanted = (derivatives + 1, len(joints or ()), 2, *shape)
+            if not (
+                isinstance(out, np.ndarray)
+                and out.shape == wanted
+                and out.dtype == np.float64
+                and out.flags.carray
+            ):
+                raise ValueError(f"out= is an array of floats that can be written, in C's order: {wanted}")
+        return Motion(self, asked, out)
 
-    def solved(self, asked: Asked) -> dict[str, Any]:
+    def solved(self, asked: Asked, out: Array | None = None) -> dict[str, Any]:
         """Return what is asked for by kind and name, and the coordinate of an input that swings by phase."""
-        (program, layout), path = self.program(asked.variant, asked.derivatives), self.assembly.path
+        program, layout = self.program(asked.variant, asked.derivatives, asked.joints)
+        path = self.assembly.path
         rates = asked.rates if asked.variant.accelerates else asked.rates[:1]
         distances, back = asked.distances, asked.back
         if asked.variant.varying_rate and back is not None:
             rates, back = tuple(np.where(back, -rate, rate) for rate in rates), None
         with np.errstate(all="ignore"):
-            results = program(*((asked.x,) if distances is None else path.solved_from(distances)), *rates)
+            given = (asked.x,) if distances is None else path.solved_from(distances)
+            rows = None if out is None else out.reshape(-1, len(asked.x))
+            results = program(*given, *rates, out=rows)
             if back is not None and back.any():
                 results[:, back] = program(asked.x[back], *(-rate for rate in rates))
             if distances is not None:
                 results[:, distances.outside] = np.nan
                 if distances.at_limit.any():
                     snapped = program(*path.solved_from(distances.snapped), *rates)
-                    rows = np.ix_(layout.rated, distances.at_limit)
-                    results[rows] = np.where(np.isnan(snapped[rows]), np.inf, snapped[rows])
+                    limits = np.ix_(layout.rated, distances.at_limit)
+                    results[limits] = np.where(np.isnan(snapped[limits]), np.inf, snapped[limits])
+        if asked.joints is not None and self.linkage.near is not self.linkage:
+            x, y = self.linkage.origin
+            results[: 2 * len(asked.joints) : 2] += x
+            results[1 : 2 * len(asked.joints) : 2] += y
         results.setflags(write=False)
         found = arrays(layout, results, asked.shape)
         found |= {kind: found[kind][""] for kind in COORDINATE if kind in found}
-        return self.placed(found)
+        return found if asked.joints is not None else self.placed(found)
 
-    def program(self, variant: Variant, derivatives: int) -> tuple[Batch, Layout]:
-        """Return the program over arrays of up to so many derivatives, and where its results lie."""
-        found = self._programs.get((variant, derivatives))
+    def program(
+        self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None = None
+    ) -> tuple[Batch, Layout]:
+        """Return the program over arrays of up to so many derivatives, and where its results lie.
+
+        Of `joints`, if any are named, and of nothing else; pins then have rows, too.
+        """
+        key = variant, derivatives, joints
+        found = self._programs.get(key)
         if found is None:
-            found = self._programs[variant, derivatives] = self._compiled(variant, derivatives)
+            found = self._programs[key] = self._compiled(*key)
         return found
 
-    def _compiled(self, variant: Variant, derivatives: int) -> tuple[Batch, Layout]:
+    def _compiled(
+        self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None
+    ) -> tuple[Batch, Layout]:
         names, rows = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
         varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
@@ -772,6 +817,9 @@ class Mechanism:
             for kind, values in rows.items()
             if (swings if kind in COORDINATE else ORDER[kind] <= derivatives)
         }
+        if joints is not None:
+            kinds, pins = POINTS[: derivatives + 1], {}
+            asked = {kind: {name: rows[kind][name] for name in joints} for kind in kinds}
         layout, outputs = laid_out(asked, pins)
         return batch(varying, outputs), layout
 

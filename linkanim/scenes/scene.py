@@ -9,7 +9,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -244,6 +244,8 @@ class Scene:
         speed: ArrayLike | None = None,
         acceleration: ArrayLike = 0.0,
         derivatives: int = 2,
+        joints: Sequence[str] | None = None,
+        out: NDArray[np.float64] | None = None,
     ) -> Motion:
         """Return the motion at crank angles or at phases (radians), or at a slider's travels, scalar or (N,).
 
@@ -251,14 +253,19 @@ class Scene:
         or of the phase; the scene's own speed where none is given. Of a slider that drives, at its travel on
         its way from its first end to its last, they are in the scene's unit of length per s and s².
         `derivatives` 0, 1 or 2 says how much is worked out. A place outside the input's range gives NaN;
-        rates at a limit are infinite. BadInput unless one of angle, phase and travel is given, for an angle
-        if the input is a slider, for a travel if it is none, for anything but numbers, and beyond a billion
-        turns.
+        rates at a limit are infinite. Of `joints`, if any are named, positions and rates are worked out, and
+        nothing else. They are written into `out`, if given: a float array (derivatives + 1, joints, 2, N), of
+        which the motion's arrays are views. BadInput unless one of angle, phase and travel is given, for an
+        angle if the input is a slider, for a travel if it is none, for anything but numbers, for an `out` of
+        another shape, and beyond a billion turns.
         """
         if (angle is None) + (phase is None) + (travel is None) != 2:
             raise BadInput("give either angle= or phase=, in radians, or travel= of a slider that drives")
+        if joints is not None or out is not None:
+            joints = self._named(joints)
         if travel is not None:
-            return self._at_travel(travel, speed, acceleration, derivatives)
+            kept = {"derivatives": derivatives, "joints": joints, "out": out}
+            return self._at_travel(travel, speed, acceleration, kept)
         if angle is not None:
             self.linkage.drive.check_angle(self.name, "take the phase")
         check_derivatives(derivatives)
@@ -266,17 +273,36 @@ class Scene:
         where = given_numbers(by, angle if phase is None else phase)  # type: ignore[arg-type]
         self.check_turns(by, where)
         rate = self.linkage.drive.speed if speed is None else speed
-        return self.mechanism.solve(
-            **{by: where},
-            speed=rate if type(rate) is float else given_numbers("speed", rate),
-            acceleration=acceleration
-            if type(acceleration) is float
-            else given_numbers("acceleration", acceleration),
-            derivatives=derivatives,
-        )
+        if type(rate) is not float:
+            rate = given_numbers("speed", rate)
+        if type(acceleration) is not float:
+            acceleration = given_numbers("acceleration", acceleration)
+        try:
+            return self.mechanism.solve(
+                **{by: where},
+                speed=rate,
+                acceleration=acceleration,
+                derivatives=derivatives,
+                joints=joints,
+                out=out,
+            )
+        except ValueError as error:
+            if out is None:
+                raise
+            raise BadInput(f"solve: {error}") from None
+
+    def _named(self, joints: Sequence[str] | None) -> tuple[str, ...]:
+        """Return the joints that are named, all of them where none are; BadInput for a name of none."""
+        names = [joint.name for joint in self.linkage.joints]
+        if joints is None:
+            return tuple(names)
+        for name in joints if not isinstance(joints, str) else [joints]:
+            if name not in names:
+                raise BadInput(f"solve(joints={joints!r}): {self.name} has joints {', '.join(names)}")
+        return tuple(dict.fromkeys([joints] if isinstance(joints, str) else joints))
 
     def _at_travel(
-        self, travel: ArrayLike, speed: ArrayLike | None, acceleration: ArrayLike, derivatives: int
+        self, travel: ArrayLike, speed: ArrayLike | None, acceleration: ArrayLike, kept: dict[str, Any]
     ) -> Motion:
         """Return the motion at travels of a slider that drives: s = middle - half cos φ, and so its rates."""
         import numpy as np
@@ -289,13 +315,13 @@ class Scene:
             gone, left = (at - first) / half, (last - at) / half
             phase = 2 * np.arctan2(np.sqrt(gone), np.sqrt(left))
             if speed is None:
-                return self.solve(phase=phase, acceleration=acceleration, derivatives=derivatives)
+                return self.solve(phase=phase, acceleration=acceleration, **kept)
             slope = half * np.sin(phase)
             rate = given_numbers("speed", speed) / slope
             second = (
                 given_numbers("acceleration", acceleration) - half * np.cos(phase) * rate * rate
             ) / slope
-        return self.solve(phase=phase, speed=rate, acceleration=second, derivatives=derivatives)
+        return self.solve(phase=phase, speed=rate, acceleration=second, **kept)
 
     @cached_property
     def _most(self) -> float:

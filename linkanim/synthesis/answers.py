@@ -292,7 +292,7 @@ class _Answer(NamedTuple):
 
     def traced(self, places: Real) -> Complex:
         """Return the coupler point at places."""
-        motion = self.scene.solve(**{self.by: places}, derivatives=0)
+        motion = self.scene.solve(**{self.by: places}, derivatives=0)  # type: ignore[arg-type]
         return np.asarray(as_complex(motion.position["P"]))
 
     def angles(self, places: Real) -> Real:
@@ -409,7 +409,7 @@ def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
     least, reach = np.abs(answer.traced(best) - points), np.full(len(best), _FARTHEST_STEP)
     left = np.arange(len(best))
     for _ in range(_FOOT_STEPS):
-        motion = answer.scene.solve(**{answer.by: best[left]}, speed=1.0, derivatives=2)
+        motion = answer.scene.solve(**{answer.by: best[left]}, speed=1.0)  # type: ignore[arg-type]
         missing = points[left] - as_complex(motion.position["P"])
         rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
         with np.errstate(all="ignore"):
@@ -445,7 +445,7 @@ def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
     first, step = (task.kind.extreme(answer.row), math.pi) if answer.by == "angle" else (0.0, quarter)
     between = np.arange(math.ceil((low - first) / step), math.floor((high - first) / step) + 1)
     along = np.array([low, *(first + between * step), high])
-    motion = answer.scene.solve(**{answer.by: along}, derivatives=0)
+    motion = answer.scene.solve(**{answer.by: along}, derivatives=0)  # type: ignore[arg-type]
     return float(np.min(transmission_angle(motion, "B")))
 
 
