@@ -16,13 +16,14 @@ From the ground up; a module imports from those before it only:
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 from collections.abc import Sequence
 
 from linkanim.cli.exits import guarded
 
-SPARED = 10_000
+SPARED = 50_000
 """New objects, less those freed, between two garbage collections: at the start nearly all of them stay."""
 
 
@@ -37,6 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> None:
     gc.set_threshold(SPARED)
+    atexit.register(gc.freeze)  # else Python looks through all objects once more before it ends
     os.umask(os.umask(0o077) & 0o077)  # what we begin we have to be able to finish, and to replace
     # Imported here so that Ctrl-C during start-up is answered like any other.
     from linkanim.cli import command_table as commands

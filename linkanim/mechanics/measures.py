@@ -270,13 +270,14 @@ def steady(motion: Any, joints: Iterable[str], read: Callable[[Any], tuple[Any, 
 
     `read` returns how fast things move, and numbers that do not depend on that. It is asked for the rates in
     time; where these are nearly 0, or unbounded, for those by each of `Linkage.movers`, by the input, and by
-    the phase.
+    the phase. An input that turns fully at one speed has these three alike.
     """
     linkage = motion.mechanism.linkage
     ways: list[Callable[[], Any]] = [partial(motion.per, mover) for mover in linkage.movers(joints)]
-    if linkage.drive.coordinate.is_angle:
-        ways.append(lambda: motion.per_input)
-    ways.append(lambda: motion.mechanism.solve(phase=motion.phase, speed=1.0))
+    if not motion.mechanism.full_turn or np.any(motion.input_acceleration) or not np.all(motion.input_speed):
+        if linkage.drive.coordinate.is_angle:
+            ways.append(lambda: motion.per_input)
+        ways.append(lambda: motion.mechanism.solve(phase=motion.phase, speed=1.0))
     share, found = _moved(motion, read)
     for way in ways:
         poor = share < SLOW
