@@ -13,6 +13,7 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
@@ -67,6 +68,27 @@ def centre(motion: Any, one: Link, other: Link) -> Centre | None:
     velocity = complex(*_steadily(motion, body, against)[1:])
     speed = abs(velocity)
     return Centre(None, 1j * velocity / speed) if math.isfinite(speed) and speed > 0 else None
+
+
+def centre_path(motion: Any, one: Link, other: Link) -> NDArray[np.complex128]:
+    """Return where two links have their instant centre over a motion: x + yi (n,), NaN where it is nowhere.
+
+    That is where it is infinitely far, or where the links do not move against each other.
+    """
+    linkage = motion.mechanism.linkage
+    if joint := joint_between(linkage, one, other):
+        return np.asarray(as_complex(motion.position[joint]))
+    if slide_between(linkage, one, other):
+        return np.full(np.shape(motion.phase), complex(math.nan))
+    body, against = (one, other) if one is not None else (other, one)
+    assert body is not None
+    return _finite(*pole(motion, body, against))
+
+
+def _finite(x: Any, y: Any) -> NDArray[np.complex128]:
+    """Return places as x + yi, NaN where they are not finite."""
+    known = np.isfinite(x) & np.isfinite(y)
+    return np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
 
 
 def joint_between(linkage: Linkage, one: Link, other: Link) -> str | None:
@@ -269,11 +291,9 @@ def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
     The body moves as if the second curve, fixed to it along its first -> second joint, rolled on the first.
     There is a break wherever the centre goes through infinity: where the body stops turning.
     """
-    x, y = pole(motion, body)
+    fixed = _finite(*pole(motion, body))
     first, second = (as_complex(motion.position[name]) for name in body.joints[:2])
     turning = np.sign(motion.angular_velocity[body.name])
-    known = np.isfinite(x) & np.isfinite(y)
-    fixed = np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
     rolling = (fixed - first) * (np.conj(second - first) / abs(second - first))
     through = np.flatnonzero(turning[1:] * turning[:-1] <= 0) + 1
     return np.insert(fixed, through, math.nan), np.insert(rolling, through, math.nan)

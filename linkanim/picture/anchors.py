@@ -88,7 +88,7 @@ class Anchors(NamedTuple):
 
     def middles(self, paths: Paths, size: Size) -> Loop:
         """Return the middles of a label of this size (n moments, k)."""
-        way = np.broadcast_to(self.way, (paths.moments, len(self.way)))
+        way = self.way[None]
         if self.turns:
             way = way * units(paths.frame(self.at, self.head)[1])[:, None]
         across, down = np.abs(way.real), np.abs(way.imag)
@@ -132,6 +132,13 @@ class Way(NamedTuple):
         """Return the middle of the name of an arrow."""
         way = unit(arrow.reach) * self.turn
         return arrow.foot + self.share * arrow.reach + pushed(way, self.off * size[1], size, True)
+
+    def middles(self, feet: Loop, reaches: Loop, size: Size) -> Loop:
+        """Return the middles of the name of an arrow at some moments (n,)."""
+        way = units(reaches) * self.turn
+        far = self.off * size[1] + (np.abs(way.real) * size[0] + np.abs(way.imag) * size[1]) / 2
+        found: Loop = feet + self.share * reaches + far * way
+        return found
 
 
 WAYS = (

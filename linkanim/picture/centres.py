@@ -9,9 +9,18 @@ from itertools import combinations
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.centres import Centre, KennedyStep, centre, centrodes, joint_between, kennedy, touch
+from linkanim.mechanics.centres import (
+    Centre,
+    KennedyStep,
+    centre,
+    centre_path,
+    centrodes,
+    joint_between,
+    kennedy,
+    touch,
+)
 from linkanim.mechanics.measures import coupler_body
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.chart import runs_of
 from linkanim.picture.figure import DrawSetting, Figure
 from linkanim.picture.raster import Colour, Layer, Loop
@@ -94,16 +103,25 @@ class CentrePairs:
         known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
         return {pair: found for pair, found in known.items() if found}
 
+    def paths(self, motion: Motion, step: int) -> dict[str, Loop]:
+        """Return where the centres are at every `step`-th phase of a motion, by name; NaN for nowhere."""
+        links, some = self.figure.by_number, np.atleast_1d(motion.phase)[::step]
+        seen = self.figure.scene.solve(phase=some, derivatives=1)
+        return {label: centre_path(seen, *(links[number] for number in pair)) for pair, label in self.pairs}
+
     def near(self, pose: Pose, box: Box, far: float = _FAR) -> tuple[complex, ...]:
         """Return the centres of a pose, in the scene's unit, that lie near a rectangle of the scene.
 
         That is up to `far` of its longer side from its middle, across and along: those that a picture of the
         rectangle includes.
         """
-        middle, reach = complex(*box.middle), far * max(box.right - box.left, box.high - box.low)
         places = [found.place for found in self.of(pose).values() if found.place is not None]
-        offs = ((place, place - middle) for place in places)
-        return tuple(place for place, off in offs if max(abs(off.real), abs(off.imag)) <= reach)
+        return _near(np.array(places, np.complex128), box, far)
+
+    def passed(self, box: Box, step: int) -> tuple[complex, ...]:
+        """Return the places near a rectangle where centres are at every `step`-th phase of the cycle."""
+        paths = self.paths(self.figure.cycle, step).values()
+        return _near(np.concatenate([np.zeros(0, np.complex128), *paths]), box, _FAR)
 
     @property
     def size(self) -> float:
@@ -118,6 +136,12 @@ class CentrePairs:
         unit_ = self.figure.scene.length_unit
         named = subscripted(self.figure.fixed[0]) if self.figure.fixed else "the origin"
         return tuple(f"{label}: 0000 {unit_} from {named}" for _, label in self.pairs if label not in jointed)
+
+
+def _near(places: Loop, box: Box, far: float) -> tuple[complex, ...]:
+    """Return the places up to `far` of a rectangle's longer side from its middle, across and along."""
+    reach, off = far * max(box.right - box.left, box.high - box.low), places - complex(*box.middle)
+    return tuple(places[np.maximum(np.abs(off.real), np.abs(off.imag)) <= reach].tolist())
 
 
 def _in_order(pair: tuple[str, str], order: Sequence[str]) -> tuple[str, str]:
@@ -201,6 +225,20 @@ class Centres:
                 edge = foot + inner.ahead(foot, direction) * direction
                 far.append(Seen(label, edge, direction, words=words))
         yield from far
+
+    def crosses(self, motion: Motion, step: int) -> dict[str, Loop]:
+        """Return the pixels of centres outside joints at every `step`-th phase; NaN where one is not seen."""
+        view, room = self.setting.view, self.setting.layout.stage
+        jointed = {label for labels in self.known.at_joints.values() for label in labels}
+        found = {}
+        for label, path in self.known.paths(motion, step).items():
+            at = view.place((0.0, 0.0)) + view.scale * path.conj()
+            seen = (
+                (at.real >= room.x) & (at.real <= room.right) & (at.imag >= room.y) & (at.imag <= room.bottom)
+            )
+            if label not in jointed and seen.any():
+                found[label] = np.where(seen, at, complex(np.nan))
+        return found
 
     @property
     def _pin(self) -> tuple[str, complex]:

@@ -231,7 +231,7 @@ class _Composer:
         """Return the composition with so much room for dimension lines at first, in heights of their text."""
         still = self.asked.moment is not None
         found = self._arranged(self._first(lines), self._far_centres)
-        for _ in range(_ROUNDS if still else _ROUNDS - 2):
+        for _ in range(_ROUNDS if still else 1):
             names, last = self._names(found), found
             found = self._arranged_for(names, found)
             grown = abs(found.view.scale / last.view.scale - 1.0)

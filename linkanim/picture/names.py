@@ -27,7 +27,16 @@ from linkanim.picture.figure import DOWN, DrawSetting, Figure
 from linkanim.picture.fittings import fittings, pedestal_corners, rail_reach, rails_of, rails_under
 from linkanim.picture.items import Caption, Halo
 from linkanim.picture.motion_marks import Arrows, Sliding, Turning, plain, vector_of
-from linkanim.picture.placing import Alternatives, Obstacles, Size, chosen, off_lines, off_rects
+from linkanim.picture.placing import (
+    Alternatives,
+    Obstacles,
+    Size,
+    chosen,
+    chosen_among,
+    off_lines,
+    off_rects,
+    weighed,
+)
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import Part, Places, directions, framed, hull, segments, unit, units
 from linkanim.picture.text import subscripted
@@ -329,9 +338,12 @@ class _Labelling:
         others = [*self._wanted_joints(), *self._wanted_dimensions(), *self._wanted_words()]
         moving = [*self._wanted_centres()]
         others += moving
+        known = [weighed(one.choice, self.ground) for one in others]
+        arrowed = [weighed(choice, self.ground) for _, choice in arrows]
         for called in self._called:
-            wanted = [*others, *self._links_called(called)]
-            which = chosen([*(one.choice for one in wanted), *(choice for _, choice in arrows)], self.ground)
+            links = list(self._links_called(called))
+            wanted = [*others, *links]
+            which = chosen_among([*known, *(weighed(one.choice, self.ground) for one in links), *arrowed])
             if None not in which[len(others) : len(wanted)]:
                 break
         placed = [one.at(n) for one, n in zip(wanted, which, strict=False) if n is not None]
@@ -513,14 +525,8 @@ class _Labelling:
         """The instant centres outside joints by their names, at the moments; far away where not seen."""
         if not self.setting.look.centres:
             return ()
-        centres = Centres(self.setting)
-        found: dict[str, Loop] = {}
-        scene, phases = self.setting.figure.scene, np.atleast_1d(self.motion.phase)[:: self.step]
-        for n, phase in enumerate(phases):
-            for seen in centres.seen(scene.pose(float(phase), 2)):
-                if not seen.direction and not seen.jointed:
-                    found.setdefault(seen.label, np.full(len(phases), -_AWAY, np.complex128))[n] = seen.at
-        return tuple(found.items())
+        crosses = Centres(self.setting).crosses(self.motion, self.step)
+        return tuple((name, np.where(np.isfinite(path), path, -_AWAY)) for name, path in crosses.items())
 
     # Labels, and where each may stand.
 
@@ -886,18 +892,10 @@ class _Labelling:
         for kind in self.arrows:
             for number, (symbol, foot, reach) in enumerate(self._seen(kind)):
                 size = _label(self.setting, symbol, line, "", "").size
-                way, long = units(reach), np.abs(reach)
-                hidden = long < _SHORTEST * line
-                columns = []
-                for one in WAYS:
-                    turned = way * one.turn
-                    off = (
-                        one.off * size[1]
-                        + (np.abs(turned.real) * size[0] + np.abs(turned.imag) * size[1]) / 2
-                    )
-                    columns.append(
-                        np.where(hidden, -_AWAY * (2 + number), foot + one.share * reach + off * turned)
-                    )
+                hidden = np.abs(reach) < _SHORTEST * line
+                columns = [
+                    np.where(hidden, -_AWAY * (2 + number), way.middles(foot, reach, size)) for way in WAYS
+                ]
                 price = _rising(len(WAYS), 0.1)
                 most = 0.5 if self.moment is None else 0.0
                 choice = Alternatives(size, np.stack(columns, axis=1), price, None, None, hidden, most)

@@ -82,7 +82,7 @@ class Picture:
     ) -> None:
         self._made_for = scene, size, look, docked, held, sheet, also
         self._aside = 0.0, 0.0
-        self.sheet, self.held = sheet, held
+        self.sheet, self.held, self.also = sheet, held, also
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
@@ -153,8 +153,7 @@ class Picture:
         if self._moment is not None:
             pose = scene.pose(self._moment, 2)
             return pairs.near(pose, shown.box_of(pose))
-        poses = (scene.pose(scene.period * n / count, 2) for n in range(count))
-        return tuple(place for pose in poses for place in pairs.near(pose, shown.box))
+        return pairs.passed(shown.box, max(len(shown.cycle.phase) // count, 1))
 
     @property
     def about(self) -> tuple[float, float]:

@@ -54,6 +54,68 @@ class Alternatives(NamedTuple):
     rank: int = 1
     ordered: bool = False
 
+    def at(self, place: int) -> Alternatives:
+        """Return the label with one of its places alone."""
+        some = slice(place, place + 1)
+        return self._replace(
+            places=self.places[:, some],
+            price=self.price[some],
+            faults=None if self.faults is None else self.faults[:, some],
+            lines=None if self.lines is None else self.lines[:, some],
+        )
+
+    def during(self, moments: Bools) -> Alternatives:
+        """Return its places at some moments."""
+        return self._replace(
+            places=self.places[moments], lines=None if self.lines is None else self.lines[moments]
+        )
+
+
+class _Swept(NamedTuple):
+    """The rectangle that holds a label in all its places, and the lines drawn with it, at each moment."""
+
+    left: Floats
+    right: Floats
+    top: Floats
+    bottom: Floats
+
+    @classmethod
+    def by(cls, label: Alternatives) -> _Swept:
+        """Return that of a label, each edge as (n, 1)."""
+        (wide, high), places = label.size, label.places
+        x, y = places.real, places.imag
+        left, right = x.min(axis=1) - wide / 2, x.max(axis=1) + wide / 2
+        top, bottom = y.min(axis=1) - high / 2, y.max(axis=1) + high / 2
+        if label.lines is not None:
+            x, y = (part.reshape(len(part), -1) for part in (label.lines.real, label.lines.imag))
+            left, right = np.minimum(left, x.min(axis=1)), np.maximum(right, x.max(axis=1))
+            top, bottom = np.minimum(top, y.min(axis=1)), np.maximum(bottom, y.max(axis=1))
+        return cls(*(edge[:, None] for edge in (left, right, top, bottom)))
+
+    def passes(self, points: Loop, radii: Floats) -> Bools:
+        """Return which discs about points (n, m) it meets at any moment."""
+        return self._meets(points.real, points.real, points.imag, points.imag, radii)
+
+    def meets(self, lines: Loop, halves: Floats) -> Bools:
+        """Return which thick lines (n, m, 2) may meet it at any moment."""
+        one, other = lines[..., 0], lines[..., 1]
+        left, right = np.minimum(one.real, other.real), np.maximum(one.real, other.real)
+        return self._meets(
+            left, right, np.minimum(one.imag, other.imag), np.maximum(one.imag, other.imag), halves
+        )
+
+    def met_by(self, other: _Swept, margin: float) -> Bools:
+        """Return the moments at which another rectangle comes nearer to it than a margin."""
+        found = (other.right + margin > self.left) & (other.left - margin < self.right)
+        found &= (other.bottom + margin > self.top) & (other.top - margin < self.bottom)
+        return found[:, 0]
+
+    def _meets(self, left: Floats, right: Floats, top: Floats, bottom: Floats, more: Floats) -> Bools:
+        more = more + 1.0
+        found = (right + more > self.left) & (left - more < self.right)
+        found &= (bottom + more > self.top) & (top - more < self.bottom)
+        return np.asarray(found.any(axis=0))
+
 
 class Obstacles(NamedTuple):
     """What labels keep off at each of n moments (arrays may have one moment for all).
@@ -76,38 +138,47 @@ class Obstacles(NamedTuple):
 
 def chosen(labels: Sequence[Alternatives], ground: Obstacles) -> list[int | None]:
     """Return the number of the place that each label takes; None for a label without a place."""
-    faults = [_faults(label, ground) for label in labels]
-    prices = [label.price + _COVERING * _covered(label, ground) for label in labels]
+    return chosen_among([weighed(label, ground) for label in labels])
+
+
+class Weighed(NamedTuple):
+    """A label with the faults (n, k) and prices (k,) that its places have without other labels."""
+
+    label: Alternatives
+    faults: Bools
+    price: Floats
+    swept: _Swept
+
+
+def weighed(label: Alternatives, ground: Obstacles) -> Weighed:
+    """Return a label with what its places cost on the ground."""
+    swept = _Swept.by(label)
+    return Weighed(
+        label, _faults(label, ground, swept), label.price + _COVERING * _covered(label, ground), swept
+    )
+
+
+def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
+    """Return the number of the place that each label takes; None for a label without a place."""
+    labels, faults = [one.label for one in known], [one.faults.copy() for one in known]
     free = [int((~fault.any(axis=0)).sum()) for fault in faults]
     found: list[int | None] = [None] * len(labels)
     order = sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n))
-    reaches = [_reach(label) for label in labels]
     for turn, n in enumerate(order, start=1):
         share = _share(labels[n], faults[n])
         allowed = share <= max(labels[n].most, share.min() if labels[n].most >= 1 else 0.0) + _SURE
         if not allowed.any():
             continue
         every = faults[n].mean(axis=0)
-        cost = np.where(allowed, prices[n] + _FAULTY * share + every, np.inf)
+        cost = np.where(allowed, known[n].price + _FAULTY * share + every, np.inf)
         best = found[n] = int(cost.argmin())
-        mine = labels[n].places[:, best : best + 1], labels[n].size
-        lines = None if labels[n].lines is None else labels[n].lines[:, best]  # type: ignore[index]
-        taken = _reach(labels[n], best)
+        mine = labels[n].at(best)
+        swept = _Swept.by(mine)
         for other in order[turn:]:
-            if taken.meets(reaches[other]):
-                faults[other] |= _hit_by(labels[other], *mine, lines)
+            near = known[other].swept.met_by(swept, labels[other].gap + mine.size[1])
+            if near.any():
+                faults[other][near] |= _hit_by(labels[other].during(near), mine.during(near))
     return found
-
-
-def _reach(label: Alternatives, place: int | None = None) -> Rect:
-    """Return the rectangle that holds a label in all its places, or in one, and the lines drawn with it."""
-    some = slice(None) if place is None else slice(place, place + 1)
-    parts = [label.places[:, some].ravel()]
-    parts += [] if label.lines is None else [label.lines[:, some].ravel()]
-    points = np.concatenate(parts)
-    wide, high = label.size[0] / 2 + label.size[1], 1.5 * label.size[1] + label.gap
-    left, top = float(points.real.min()) - wide, float(points.imag.min()) - high
-    return Rect(left, top, float(points.real.max()) + wide - left, float(points.imag.max()) + high - top)
 
 
 def grounded(
@@ -127,7 +198,7 @@ def _share(label: Alternatives, faults: Bools) -> Floats:
     return share
 
 
-def _faults(label: Alternatives, ground: Obstacles) -> Bools:
+def _faults(label: Alternatives, ground: Obstacles, swept: _Swept) -> Bools:
     """Return where a label's places (n, k) break a rule, without other labels."""
     places, (wide, high) = label.places, label.size
     room = ground.inside
@@ -136,24 +207,29 @@ def _faults(label: Alternatives, ground: Obstacles) -> Bools:
     out |= (y < room.y + high / 2 - _SURE) | (y > room.bottom - high / 2 + _SURE)
     if label.faults is not None:
         out |= label.faults
-    if ground.discs.size:
-        out |= (_off(places, label.size, ground.discs) < ground.radii).any(axis=2)
+    near = swept.passes(ground.discs, ground.radii)
+    discs, radii = ground.discs[:, near], ground.radii[near]
+    if discs.size:
+        out |= (_off(places, label.size, discs) < radii).any(axis=2)
     if ground.rects.size:
         out |= _overlap(places, label.size, ground.rects, ground.sizes).any(axis=2)
-    if ground.lines.size:
-        out |= crossed(places, label.size, ground.lines, ground.halves).any(axis=2)
+    near = swept.meets(ground.lines, ground.halves)
+    if near.any():
+        out |= crossed(places, label.size, ground.lines[:, near], ground.halves[near]).any(axis=2)
     if label.lines is not None:
         for n in range(label.lines.shape[2]):
             line = label.lines[:, :, n]
             if ground.rects.size:
                 out |= _run_over(line, ground.rects, ground.sizes)
-            if n == 0 and ground.discs.size:
-                out |= (_apart(ground.discs[:, None], line[:, :, None]) < ground.radii).any(axis=2)
+            if n == 0 and discs.size:
+                out |= (_apart(discs[:, None], line[:, :, None]) < radii).any(axis=2)
     return out
 
 
-def _hit_by(label: Alternatives, middle: Loop, size: Size, lines: Loop | None) -> Bools:
-    """Return where a label's places meet another label at a place (n, 1), or the lines drawn with it."""
+def _hit_by(label: Alternatives, other: Alternatives) -> Bools:
+    """Return where a label's places meet another label, which has one, or the lines drawn with it."""
+    middle, size = other.places, other.size
+    lines = None if other.lines is None else other.lines[:, 0]
     apart = np.array([(size[0] + _BETWEEN * size[1], size[1])])
     hit: Bools = np.asarray(_overlap(label.places, label.size, middle, apart).any(axis=2))
     if lines is not None and lines.size:
@@ -172,7 +248,9 @@ def _covered(label: Alternatives, ground: Obstacles) -> Floats:
         return np.zeros(label.places.shape[1])
     every = max(len(label.places) // _COVERING_MOMENTS, 1)
     places, bars = label.places[::every], ground.bars[::every]
-    return np.asarray(crossed(places, label.size, bars, ground.thick).sum(axis=2).mean(axis=0), np.float64)
+    near = _Swept.by(label._replace(places=places, lines=None)).meets(bars, ground.thick)
+    found = crossed(places, label.size, bars[:, near], ground.thick[near])
+    return np.asarray(found.sum(axis=2).mean(axis=0), np.float64)
 
 
 def _overlap(places: Loop, size: Size, others: Loop, sizes: Floats) -> Bools:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.polygons import Order, Side, Sort
 from linkanim.picture.anchors import Way, pushed
 from linkanim.picture.chart import Pen
@@ -18,7 +18,7 @@ from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.motion_marks import SeenArrow
 from linkanim.picture.placing import Alternatives, chosen, crossed, grounded
 from linkanim.picture.quantities import round_step
-from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import arrows, disc, segments
 from linkanim.picture.view import Box, Rect
 from linkanim.units import three_digits
@@ -26,6 +26,8 @@ from linkanim.units import three_digits
 _TITLES: dict[Order, tuple[str, str]] = {1: ("velocity polygon", "/s"), 2: ("acceleration polygon", "/s²")}
 _NOTHING = 1e-9
 """Share of a polygon's greatest extent below which a vector has no direction."""
+_COINCIDING = 1e-3
+"""How far apart arrows are that coincide, in pixels."""
 _LABELLED = 0.8
 """The shortest vector that has its symbol beside it, in heights of the text."""
 _SIDES = tuple(Way(share, turn, 0.12) for share in (0.5, 0.35, 0.65) for turn in (1j, -1j))
@@ -67,7 +69,7 @@ class Arrow(NamedTuple):
 
     def is_on(self, other: Arrow) -> bool:
         """Return whether the two coincide, as a vector and its only part do."""
-        return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
+        return abs(self.foot - other.foot) + abs(self.reach - other.reach) < _COINCIDING
 
 
 class Placing(NamedTuple):
@@ -211,6 +213,30 @@ class Polygon:
         parts = [arrow for arrow in found if not any(arrow.is_on(other) for other in whole)]
         return [arrow for arrow in (*whole, *parts) if abs(arrow.reach) > _NOTHING * self._room.width]
 
+    def _tracks(
+        self, motion: Motion | Pose, pole: complex, scale: float
+    ) -> dict[tuple[str, Sort], tuple[Loop, Loop]]:
+        """Return foot and reach of the arrows at the phases of a motion, in pixels, by what they are.
+
+        Absolute ones come first. One that is not drawn has its foot far away, and no length.
+        """
+        sides = sorted(self.figure.polygon_sides(motion, self.order), key=lambda one: one.sort != "absolute")
+        count = np.size(motion.phase)
+        found: dict[tuple[str, Sort], tuple[Loop, Loop]] = {}
+        bounded = np.ones(count, np.bool_)
+        for side in sides:
+            begin, end = (np.broadcast_to(one, (count,)) for one in (side.begin, side.end))
+            bounded &= np.isfinite(end)
+            foot, reach = pole + scale * np.conj(begin), scale * np.conj(end - begin)
+            found.setdefault((side.symbol, side.sort), (foot, reach))
+        whole = [track for (_, sort), track in found.items() if sort == "absolute"]
+        for key, (foot, reach) in found.items():
+            drawn = bounded & (np.abs(reach) > _NOTHING * self._room.width)
+            for other in whole if key[1] != "absolute" else ():
+                drawn &= np.abs(foot - other[0]) + np.abs(reach - other[1]) >= _COINCIDING
+            found[key] = np.where(drawn, foot, _NOWHERE), np.where(drawn, reach, 0)
+        return found
+
     def _drawn(self, found: list[Arrow]) -> Iterator[Layer]:
         """Yield the arrows, relative ones first."""
         for arrow in sorted(found, key=lambda arrow: arrow.is_absolute):
@@ -264,37 +290,27 @@ class Polygon:
         pen, small = self.pen, self.pen.small
         scene = self.figure.scene
         speed = scene.linkage.drive.speed
-        poses = (
-            [self.shown]
-            if self.shown
-            else [scene.pose(scene.period * n / _MOMENTS, 2, speed=speed) for n in range(_MOMENTS)]
-        )
+        motion = self.shown or scene.cycle(_MOMENTS)
         pole = self.pole(speed)
-        seen = [self._arrows(pose, pole, self.scale(pose.input_speed)) for pose in poses if pose]
-        keys = list(dict.fromkeys((arrow.side.symbol, arrow.side.sort) for row in seen for arrow in row))
-        most = max((len(row) for row in seen), default=0)
-        lines = np.full((len(seen), most, 2), _NOWHERE, np.complex128)
-        for n, row in enumerate(seen):
-            if row:
-                lines[n, : len(row)] = [(arrow.foot, arrow.foot + arrow.reach) for arrow in row]
+        tracks = self._tracks(motion, pole, self.scale(speed))
+        count = np.size(motion.phase)
+        ends = [np.stack([foot, foot + reach], axis=1) for foot, reach in tracks.values()]
+        lines = np.stack(ends, axis=1) if ends else np.zeros((count, 0, 2), np.complex128)
         ground = grounded(self._within, [*self._words])
-        ground = ground._replace(bars=lines, thick=np.full(most, pen.line))
+        ground = ground._replace(bars=lines, thick=np.full(len(ends), pen.line))
         origin = "o_{v}" if self.order == 1 else "o_{a}"
         size = (float(pen.type.width(origin, small)), float(small))
         round_ = np.array([[pole + pushed(complex(way), 2.4 * pen.line, size, False) for way in _AROUND]])
-        choices = [Alternatives(size, np.repeat(round_, len(seen), axis=0), 0.02 * np.arange(8.0), most=1.0)]
-        for number, key in enumerate(keys):
-            size = (float(pen.type.width(key[0], small)), float(small))
-            places = np.full((len(seen), len(_SIDES)), _NOWHERE * (2 + number), np.complex128)
-            hidden = np.ones(len(seen), np.bool_)
-            for n, row in enumerate(seen):
-                arrow = next((one for one in row if (one.side.symbol, one.side.sort) == key), None)
-                if arrow and abs(arrow.reach) >= _LABELLED * small:
-                    places[n], hidden[n] = [way.middle(arrow.seen, size) for way in _SIDES], False
+        choices = [Alternatives(size, np.repeat(round_, count, axis=0), 0.02 * np.arange(8.0), most=1.0)]
+        for number, ((symbol, _), (foot, reach)) in enumerate(tracks.items(), start=2):
+            size = (float(pen.type.width(symbol, small)), float(small))
+            hidden = np.abs(reach) < _LABELLED * small
+            places = np.stack([way.middles(foot, reach, size) for way in _SIDES], axis=1)
+            places[hidden] = _NOWHERE * number
             price = np.asarray(0.05 * np.arange(len(_SIDES)), np.float64)
             choices.append(Alternatives(size, places, price, excused=hidden, most=1.0))
         pole_way, *ways = chosen(choices, ground)
-        sides = {key: _SIDES[n] for key, n in zip(keys, ways, strict=True) if n is not None}
+        sides = {key: _SIDES[n] for key, n in zip(tracks, ways, strict=True) if n is not None}
         return Placing(complex(_AROUND[pole_way or 0]), sides)
 
     def _written(self, words: str, at: complex, colour: Colour) -> Caption:

@@ -92,7 +92,7 @@ class Framing:
         stays = before is not None and before.size == size
         home, also = None, _included(state)
         if sketch and before and stays and (sketch.is_blank or held):
-            home, also = before.fitted, before.composition.wanted.also
+            home, also = before.fitted, before.also
         if before and before.fits(state.shown, size, look, docked, held=held, sheet=sheet, also=also):
             return before
         made = Picture(

@@ -227,3 +227,20 @@ def test_every_centre_is_at_a_joint_or_a_guide_or_has_the_lines_that_lead_there(
             for third in built.get((one, other), ()):  # the centres on its lines are named
                 assert {(one, third), (third, one)} & named
                 assert {(third, other), (other, third)} & named
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_the_paths_of_centres_go_through_where_they_are_in_each_pose(name: str) -> None:
+    shown = figure(load(name))
+    known, step = CentrePairs(shown), len(shown.cycle.phase) // 7
+    paths = known.paths(shown.cycle, step)
+    assert set(paths) == {label for _, label in known.pairs}
+    for n, phase in enumerate(shown.cycle.phase[::step]):
+        centres = known.of(shown.scene.pose(float(phase), 2))
+        for pair, label in known.pairs:
+            place = centres[pair].place if pair in centres else None
+            if place is None:
+                assert np.isnan(paths[label][n]) or abs(paths[label][n]) > 1e6 * shown.extent
+            else:
+                assert paths[label][n] == pytest.approx(place, rel=1e-9, abs=1e-9 * shown.extent)

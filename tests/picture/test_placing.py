@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.picture.placing import Alternatives, Obstacles, chosen, crossed, grounded
+from linkanim.picture.placing import Alternatives, Obstacles, chosen, crossed, grounded, weighed
 from linkanim.picture.view import Rect
 
 ROOM = Rect(0, 0, 400, 400)
@@ -107,3 +107,30 @@ def test_boxes_meet_the_thick_lines_that_reach_into_them(turn: complex) -> None:
         near = np.abs(box + inner - share * 30 * turn).min()
         assert met or near > half - 1.0
         assert not met or near < half * np.sqrt(2) + 1.0
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_places_that_are_weighed_together_have_the_faults_that_each_has_alone(seed: int) -> None:
+    """What no place of a label comes near is left out for all of them at once."""
+    rng = np.random.default_rng(seed)
+
+    def points(*shape: int) -> Any:
+        return rng.uniform(-50, 450, shape) + 1j * rng.uniform(-50, 450, shape)
+
+    begin, moments, few, most = points(5, 30, 1), 5, 6, 30
+    some = begin + points(5, 30, 1) / 5
+    ground = _ground(
+        discs=points(moments, most),
+        radii=rng.uniform(2, 40, most),
+        lines=np.concatenate([begin, some], axis=2),
+        halves=rng.uniform(0, 20, most),
+        bars=np.concatenate([some, points(5, 30, 1)], axis=2),
+        thick=rng.uniform(0, 20, most),
+    )
+    middles = points(moments, 1) + points(moments, few) / 10
+    reach = np.stack([middles, middles + 80], axis=2)[:, :, None]
+    both = Alternatives(SIZE, middles, np.zeros(few), lines=reach)
+    together, alone = weighed(both, ground), [weighed(both.at(n), ground) for n in range(few)]
+    assert 0 < together.faults.sum() < together.faults.size
+    assert (together.faults == np.concatenate([one.faults for one in alone], axis=1)).all()
+    assert (together.price == [float(one.price[0]) for one in alone]).all()

@@ -189,3 +189,15 @@ def test_the_view_on_the_way_is_between_and_arrives() -> None:
     assert 0 < right < 380.0
     assert down == 0.0
     assert way.aside((900.0, 700.0), 10 + APPROACH_FRAMES) == (0.0, 0.0)
+
+
+def test_a_blank_sheet_keeps_its_picture_also_with_instant_centres() -> None:
+    """The view of the last linkage stays, with the centres that it included: it was made anew every frame."""
+    state = carried(begin(load("crank-rocker")), Action("centres"))
+    framing = Framing(window=True)
+    framing.fitting(state, (640, 360))
+    blank = carried(state, Action("poses"))
+    assert blank.sketch is not None
+    assert blank.sketch.is_blank
+    once = framing.fitting(blank, (640, 360))
+    assert framing.fitting(blank, (640, 360)) is once
