@@ -71,7 +71,7 @@ class Alternatives(NamedTuple):
         )
 
 
-class _Swept(NamedTuple):
+class _LabelSweep(NamedTuple):
     """The rectangle that holds a label in all its places, and the lines drawn with it, at each moment."""
 
     left: Floats
@@ -80,7 +80,7 @@ class _Swept(NamedTuple):
     bottom: Floats
 
     @classmethod
-    def by(cls, label: Alternatives) -> _Swept:
+    def by(cls, label: Alternatives) -> _LabelSweep:
         """Return that of a label, each edge as (n, 1)."""
         (wide, high), places = label.size, label.places
         x, y = places.real, places.imag
@@ -104,7 +104,7 @@ class _Swept(NamedTuple):
             left, right, np.minimum(one.imag, other.imag), np.maximum(one.imag, other.imag), halves
         )
 
-    def met_by(self, other: _Swept, margin: float) -> Bools:
+    def met_by(self, other: _LabelSweep, margin: float) -> Bools:
         """Return the moments at which another rectangle comes nearer to it than a margin."""
         found = (other.right + margin > self.left) & (other.left - margin < self.right)
         found &= (other.bottom + margin > self.top) & (other.top - margin < self.bottom)
@@ -147,12 +147,12 @@ class Weighed(NamedTuple):
     label: Alternatives
     faults: Bools
     price: Floats
-    swept: _Swept
+    swept: _LabelSweep
 
 
 def weighed(label: Alternatives, ground: Obstacles) -> Weighed:
     """Return a label with what its places cost on the ground."""
-    swept = _Swept.by(label)
+    swept = _LabelSweep.by(label)
     return Weighed(
         label, _faults(label, ground, swept), label.price + _COVERING * _covered(label, ground), swept
     )
@@ -173,7 +173,7 @@ def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
         cost = np.where(allowed, known[n].price + _FAULTY * share + every, np.inf)
         best = found[n] = int(cost.argmin())
         mine = labels[n].at(best)
-        swept = _Swept.by(mine)
+        swept = _LabelSweep.by(mine)
         for other in order[turn:]:
             near = known[other].swept.met_by(swept, labels[other].gap + mine.size[1])
             if near.any():
@@ -198,7 +198,7 @@ def _share(label: Alternatives, faults: Bools) -> Floats:
     return share
 
 
-def _faults(label: Alternatives, ground: Obstacles, swept: _Swept) -> Bools:
+def _faults(label: Alternatives, ground: Obstacles, swept: _LabelSweep) -> Bools:
     """Return where a label's places (n, k) break a rule, without other labels."""
     places, (wide, high) = label.places, label.size
     room = ground.inside
@@ -248,7 +248,7 @@ def _covered(label: Alternatives, ground: Obstacles) -> Floats:
         return np.zeros(label.places.shape[1])
     every = max(len(label.places) // _COVERING_MOMENTS, 1)
     places, bars = label.places[::every], ground.bars[::every]
-    near = _Swept.by(label._replace(places=places, lines=None)).meets(bars, ground.thick)
+    near = _LabelSweep.by(label._replace(places=places, lines=None)).meets(bars, ground.thick)
     found = crossed(places, label.size, bars[:, near], ground.thick[near])
     return np.asarray(found.sum(axis=2).mean(axis=0), np.float64)
 
