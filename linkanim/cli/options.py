@@ -514,25 +514,16 @@ _SPEED = _value(
 )
 
 
-_BOX = _value("--box X,Y,W,H", box, "the rectangle in which all fixed pins lie")
-_BOXES = _value(
-    "--box X,Y,W,H",
-    box,
-    "the rectangle in which the fixed pins lie that are not given, or two of them, one for each",
-    nargs="+",
-)
-
-
 _DRIVER = (
     _flag("--driver", "give each answer whose input swings a crank on a motor that turns fully, and a rod"),
     _value("--motor X,Y", pair, "where the driver's motor stands; has --driver as well"),
 )
 
 
-def _limits(sizes: str, room: Argument = _BOX) -> tuple[Argument, ...]:
+def _limits(sizes: str, room: str) -> tuple[Argument, ...]:
     """Return the limits of what is synthesised."""
     return (
-        room,
+        _value("--box X,Y,W,H", box, room, nargs="+"),
         _value("--largest F", positive, f"the longest link allowed, in {sizes} (default: 8)", 8.0),
         _value("--least-angle ANGLE", units.angle, "the least transmission angle allowed", 0.0),
     )
@@ -795,7 +786,10 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "--pivots X,Y", pair, "the crank's fixed pin, or both fixed pins, that are given", (), nargs="+"
         ),
         _value("--count N", count, "the number of answers (default: 5)", 5),
-        *_limits("sizes of the curve"),
+        *_limits(
+            "sizes of the curve",
+            "the rectangle in which all fixed pins lie, or two of them, the crank's pin in the first",
+        ),
         _takes(
             "--prefer",
             choices=("balanced", "exact", "compact", "angle"),
@@ -819,7 +813,10 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _KIND_SOUGHT,
         _value("--pivots X,Y", pair, "one or two fixed pins that are given", (), nargs="+"),
-        *_limits("sizes of the poses", _BOXES),
+        *_limits(
+            "sizes of the poses",
+            "the rectangle in which the fixed pins lie that are not given, or two of them, one for each",
+        ),
         _takes(
             "--prefer", choices=("compact", "angle"), help="prefer small links, or a large transmission angle"
         ),

@@ -54,7 +54,7 @@ from linkanim.synthesis.linkages import (
     LinkageKind,
     Real,
     Requirements,
-    box_of,
+    boxes_of,
     holds,
     refuse_count,
 )
@@ -215,9 +215,7 @@ def task_of(
             "between them; give one of them another place, or leave it out"
         )
     boxes = _boxes(box, pose_set, given, len(chosen.pins) - len(given))
-    limits = Requirements.of(
-        pose_set.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=None
-    )
+    limits = Requirements.of(pose_set.size, "sizes of the poses", largest=largest, least_angle=least_angle)
     return GuideTask(pose_set, chosen, given, replace(limits, full_turn=False), boxes, unit, name, source)
 
 
@@ -228,10 +226,9 @@ def _boxes(
     free: int,
 ) -> tuple[Box, ...]:
     """Return the boxes for the `free` pins; BadInput for more boxes, and if nothing can lie in them."""
-    if box is None or not len(box):
+    boxes = boxes_of(box)
+    if not boxes:
         return ()
-    rows = [box] if np.ndim(box[0]) == 0 else list(box)
-    boxes = tuple(box_of(row) for row in rows)  # type: ignore[arg-type]
     if not free:
         for pivot in given:
             if not any(holds(one, pivot) for one in boxes):

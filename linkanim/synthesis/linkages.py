@@ -474,20 +474,24 @@ SHORTEST = 1e-3
 """The shortest length of a link, in curve sizes."""
 
 
+Box = tuple[float, float, float, float]
+"""The x, y, width and height of a rectangle."""
+
+
 @frozen(eq=False)
 class Requirements:
     """Limits on linkages, in the unit of their points.
 
     `least_angle` is the requested transmission angle, 0 for none; it is kept above `LEAST_ANGLE` in any case.
-    `box` is x, y, width and height, in which all pivots lie; `given` are the values of parameters that stay;
-    `full_turn` says whether the crank has to turn fully. Where many candidates are fitted at once, each may
-    have a longest link (B, 1) and a least angle (B,) of its own.
+    `boxes` are one in which all pivots lie, or one for each of them; `given` are the values of parameters
+    that stay; `full_turn` says whether the crank has to turn fully. Where many candidates are fitted at once,
+    each may have a longest link (B, 1) and a least angle (B,) of its own.
     """
 
     largest: float | Real
     shortest: float
     least_angle: float | Real = 0.0
-    box: tuple[float, ...] | None = None
+    boxes: tuple[Box, ...] = ()
     given: Mapping[str, float] = field(default_factory=dict)
     full_turn: bool = True
 
@@ -499,7 +503,7 @@ class Requirements:
         *,
         largest: float,
         least_angle: float,
-        box: Sequence[float] | None,
+        boxes: tuple[Box, ...] = (),
         given: Mapping[str, float] | None = None,
     ) -> Self:
         """Return the requested limits, the longest link in `sizes`; BadInput where one makes no sense."""
@@ -512,7 +516,7 @@ class Requirements:
             largest=largest * size,
             shortest=SHORTEST * size,
             least_angle=least_angle,
-            box=None if box is None else box_of(box),
+            boxes=boxes,
             given=given or {},
         )
 
@@ -521,8 +525,8 @@ class Requirements:
         turning = [kind.slack(rows, self.angle_to_keep("angle"))] if self.full_turn else []
         lengths = kind.link_lengths(rows)
         limits = [self.largest - lengths, lengths - self.shortest]
-        if self.box is not None:
-            x, y, width, height = self.box
+        if self.boxes:
+            x, y, width, height = np.array(self.boxes).T
             pivots = kind.pivots(rows)
             limits += [pivots.real - x, x + width - pivots.real, pivots.imag - y, y + height - pivots.imag]
         return np.concatenate([*turning, *limits], axis=1)
@@ -549,10 +553,12 @@ class Requirements:
                 return value
             return (value - {"x": shift.real, "y": shift.imag}.get(name[0], 0.0)) / scale
 
-        box = self.box and tuple(map(placed, ("x", "y", "width", "height"), self.box))
+        boxes = tuple(
+            (placed("x", x), placed("y", y), wide / scale, high / scale) for x, y, wide, high in self.boxes
+        )
         given = {name: placed(name, value) for name, value in self.given.items()}
         largest, shortest = self.largest / scale, self.shortest / scale
-        return replace(self, largest=largest, shortest=shortest, box=box, given=given)
+        return replace(self, largest=largest, shortest=shortest, boxes=boxes, given=given)
 
 
 def refuse_count(count: int) -> None:
@@ -561,18 +567,23 @@ def refuse_count(count: int) -> None:
         raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
 
 
-Box = tuple[float, float, float, float]
-"""The x, y, width and height of a rectangle."""
-
-
 def holds(box: Sequence[float], pivot: complex) -> bool:
     """Tell whether a point lies in a box."""
     x, y, width, height = box
     return x <= pivot.real <= x + width and y <= pivot.imag <= y + height
 
 
-def box_of(box: Sequence[float]) -> Box:
-    """Return a requested box as numbers; BadInput where it is not four numbers, or has no area."""
+def boxes_of(box: Sequence[float] | Sequence[Sequence[float]] | None) -> tuple[Box, ...]:
+    """Return requested boxes, one or a list of them, as numbers.
+
+    BadInput where one is not four numbers, or has no area.
+    """
+    if box is None or not len(box):
+        return ()
+    return tuple(map(_box_of, [box] if np.ndim(box[0]) == 0 else box))  # type: ignore[arg-type]
+
+
+def _box_of(box: Sequence[float]) -> Box:
     values = tuple(float(value) for value in box)
     if len(values) != 4 or not can_be_computed(*values):
         raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, each {NUMBERS}")

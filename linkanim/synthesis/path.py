@@ -27,7 +27,17 @@ from linkanim.synthesis.front import (
     preferred,
     searched_front,
 )
-from linkanim.synthesis.linkages import KINDS, Indices, LinkageKind, Real, Requirements, refuse_count
+from linkanim.synthesis.linkages import (
+    KINDS,
+    Box,
+    Indices,
+    LinkageKind,
+    Real,
+    Requirements,
+    boxes_of,
+    holds,
+    refuse_count,
+)
 from linkanim.synthesis.search import (
     SAME,
     Pulse,
@@ -162,7 +172,7 @@ def task_of(
     kind: str = "four-bar",
     timing: float | ArrayLike | None = None,
     free_start: bool | None = None,
-    box: Sequence[float] | None = None,
+    box: Sequence[float] | Sequence[Sequence[float]] | None = None,
     largest: float = LARGEST,
     least_angle: float = 0.0,
     pivots: Sequence[Pair | None] = (),
@@ -177,10 +187,10 @@ def task_of(
 
     `kind` is "four-bar" or "slider-crank". `timing` is the crank's angle at each point, in radians, or one
     step from each point to the next; with `free_start`, the default for a step, all may be shifted by one
-    angle. `box` is x, y, width and height for the pivots, `largest` the longest link or side of the coupler
-    in curve sizes, `least_angle` the least transmission angle in radians. `pivots` are O2 and O4, None for
-    one that is free; `lengths` fixes some of the parameters of the kind. `weights` (n,) say how much each
-    point counts, and `exactly` lists the points to pass exactly.
+    angle. `box` is x, y, width and height for all pivots, or two of these, for O2 and for O4; `largest` is
+    the longest link or side of the coupler in curve sizes, `least_angle` the least transmission angle in
+    radians. `pivots` are O2 and O4, None for one that is free; `lengths` fixes some of the parameters of the
+    kind. `weights` (n,) say how much each point counts, and `exactly` lists the points to pass exactly.
     """
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
@@ -192,7 +202,7 @@ def task_of(
         "curve sizes",
         largest=largest,
         least_angle=least_angle,
-        box=box,
+        boxes=_boxes(box, chosen),
         given=_given(chosen, pivots, lengths or {}),
     )
     _refuse_contradictions(chosen, requirements)
@@ -233,13 +243,25 @@ def _refuse_contradictions(kind: LinkageKind, limits: Requirements) -> None:
                 f"the given {name} of {given[name]:g} is longer than the longest link, {limits.largest:g}; "
                 "raise that, or give a shorter one"
             )
-    for start in kind.pins:
+    for n, start in enumerate(kind.pins if limits.boxes else ()):
         x, y = (given.get(name) for name in kind.parameters[start : start + 2])
-        if limits.box is None or x is None or y is None:
-            continue
-        left, below, width, height = limits.box
-        if not (left <= x <= left + width and below <= y <= below + height):
-            raise BadInput(f"the given pivot at {x:g}, {y:g} lies outside of the box; move one of them")
+        if (
+            x is not None
+            and y is not None
+            and not holds(limits.boxes[min(n, len(limits.boxes) - 1)], complex(x, y))
+        ):
+            raise BadInput(f"the given pivot at {x:g}, {y:g} lies outside of its box; move one of them")
+
+
+def _boxes(box: Sequence[float] | Sequence[Sequence[float]] | None, kind: LinkageKind) -> tuple[Box, ...]:
+    """Return the box for all pins, or one for each of them."""
+    boxes = boxes_of(box)
+    if len(boxes) > 1 and len(boxes) != len(kind.pins):
+        pins = f"{len(kind.pins)} fixed pin" + "s" * (len(kind.pins) > 1)
+        raise BadInput(
+            f"{len(boxes)} boxes are given, and a {kind.name} has {pins}; give one box, or one for each pin"
+        )
+    return boxes
 
 
 def _timing(timing: float | ArrayLike | None, free: bool | None, count: int) -> tuple[Real | None, bool]:

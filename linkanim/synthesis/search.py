@@ -87,7 +87,8 @@ def best_fits(
 
 def none_fits(task: PathTask) -> str:
     """Return the sentence that no linkage keeps to what is asked for."""
-    limits = ["the box"] if task.requirements.box else []
+    boxes = len(task.requirements.boxes)
+    limits = ["the boxes" if boxes > 1 else "the box"] if boxes else []
     limits += [f"the given {name}" for name in task.requirements.given]
     named = ", ".join([*limits, "the longest link"])
     return (

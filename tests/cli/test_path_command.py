@@ -184,6 +184,7 @@ def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixtur
         (["oval.csv", "--timing", "20"], '--timing: "20" has no unit'),
         (["oval.csv", "--box", "1,2,3"], '"1,2,3" is not X,Y,W,H'),
         (["oval.csv", "--box", "0,0,0,9"], "nothing fits in it"),
+        (["oval.csv", "--box", "0,0,9,9", "1,1,1,1", "2,2,2,2"], "3 boxes are given"),
         (["oval.csv", "--round", "-1 mm"], "no length to round to"),
         (["oval.csv", "--prefer", "small"], "--prefer"),
         (["oval.csv", "--front", "front.toml"], "use one of .csv"),

@@ -482,6 +482,15 @@ def test_limits_are_kept(names: tuple[str, ...]) -> None:
         verify(fit, np.array(SQUARE) @ np.array([1.0, 1j]))
 
 
+def test_of_two_boxes_the_first_holds_the_crank_s_pin() -> None:
+    boxes = [(12, -2, 10, 10), (-20, -30, 25, 20)]
+    for some in (boxes, boxes[::-1]):
+        for fit in linkanim.path(SQUARE, count=2, box=some, prefer="exact"):
+            for (x, y, wide, high), pivot in zip(some, fit.kind.pivots(fit.row[None])[0], strict=True):
+                assert x - 1e-9 <= pivot.real <= x + wide + 1e-9
+                assert y - 1e-9 <= pivot.imag <= y + high + 1e-9
+
+
 @pytest.mark.slow
 def test_one_linkage_whose_line_is_told_from_either_end_is_one_answer() -> None:
     points = curves("slider-crank", 1, seed=61)[0]
@@ -536,7 +545,12 @@ REFUSED: dict[str, tuple[Any, dict[str, Any]]] = {
     "no extent": ([(3, 3), (3, 3), (3, 3), (3, 3)], {"closed": False}),
     "pairs of numbers": ([(0, 0, 0), (1, 1, 1), (2, 0, 0)], {}),
     "nothing fits in it": (SQUARE, {"box": (0, 0, 0, 5)}),
-    "lies outside of the box": (SQUARE, {"box": (0, 0, 5, 5), "pivots": [(9, 9)]}),
+    "3 boxes are given, and a four-bar has 2": (SQUARE, {"box": 3 * [(0, 0, 5, 5)]}),
+    "2 boxes are given, and a slider-crank has 1 fixed pin": (
+        SQUARE,
+        {"box": 2 * [(0, 0, 5, 5)], "kind": "slider-crank"},
+    ),
+    "lies outside of its box": (SQUARE, {"box": (0, 0, 5, 5), "pivots": [(9, 9)]}),
     "longer than the longest link": (SQUARE, {"lengths": {"crank": 500}}),
     "no length of a four-bar": (SQUARE, {"lengths": {"rod": 5}}),
     "0 to 90 deg": (SQUARE, {"least_angle": 2.0}),
@@ -551,7 +565,8 @@ REFUSED: dict[str, tuple[Any, dict[str, Any]]] = {
     "count=2.5: give a whole number": (SQUARE, {"count": 2.5}),
     "a point lies at 1e\\+308": ([(0, 0), (1e308, -1e308), (-1e308, 1e308)], {}),
     "keeps to the longest link and": (SQUARE[::8], {"largest": 0.05}),
-    "keeps to the box": (SQUARE[::8], {"box": (1e6, 1e6, 1.0, 1.0)}),
+    "keeps to the box,": (SQUARE[::8], {"box": (1e6, 1e6, 1.0, 1.0)}),
+    "keeps to the boxes,": (SQUARE[::8], {"box": [(1e6, 1e6, 1.0, 1.0), (0.0, 0.0, 1.0, 1.0)]}),
 }
 
 
