@@ -372,11 +372,13 @@ def drive(building: Building) -> Building:
     return next(drives(building))[1]
 
 
-def drives(building: Building) -> Iterator[tuple[str, Building]]:
+def drives(building: Building, *, here: bool = False) -> Iterator[tuple[str, Building]]:
     """Yield the ways in which the chosen thing can be driven, in words, and the buildings with them.
 
+    Those at the chosen joint come first where a motor was let go `here`.
+
     Of a ground pin that is a bar on it; of a joint that moves the bar from a ground pin, a slider, or a motor
-    between two bars. Where the links are free enough, and none hangs loose, a further motor comes first.
+    between two bars. Where a further motor makes it move, that comes first.
     """
     draft, thing, found = building.draft, building.chosen, list[tuple[str, Building]]()
     for joint in _drivable(draft, thing):
@@ -389,22 +391,25 @@ def drives(building: Building) -> Iterator[tuple[str, Building]]:
         table = crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
         one = driven(building, bare, [table], thing, f"{joint} is driven")
         found.append((f"{joint} turns about {pivot}", one))
-        turned = joint != draft.driven and draft.driven and not draft.drive.keys() & {"cylinder", "slider"}
-        if turned and mobility(bare) > 1 + len(bare.of("drives")):
+        cranked = draft.driven and not draft.drive.keys() & {"cylinder", "slider"}
+        if cranked and joint != draft.driven and mobility(bare) > 1 + len(bare.of("drives")):
             words = f"{joint} has a motor, too"
             further = {"speed": table["speed"], "start": table["start"]}
             more = changed(building, bare.having("drives", joint, further), thing, words)
             place = 0 if more.made.scene else len(found)
             found.insert(place, (f"{joint} turns about {pivot}, too", more))
+    kind, name = thing or ("", "")
+    first = len(found) if kind == JOINT and name not in (*draft.of("pins"), *draft.of("sliders")) else 0
     for pivot, arms in _moving_motors(draft, thing):
         speed = draft.drive.get("speed", SPEED)
         table = {"motor": {"pivot": pivot, "between": [*arms]}, "speed": speed}
-        words = f"{arms[1]} turns about {pivot} on the link to {arms[0]}"
+        own, turned = (draft.body_of([pivot, arm]) or f"{pivot}–{arm}" for arm in arms)
+        words = f"link {turned} turns on link {own} at {pivot}"
         found.append((words, driven(building, draft, [table], thing, f"The motor is at {pivot}")))
     if not found:
         why = "Choose a crank (a bar on a ground pin), a slider, or a joint of two bars to drive it"
         found.append(("", refused(building, why)))
-    yield from found
+    yield from found[first:] + found[:first] if here else found
 
 
 def motor(building: Building, x: float, y: float, *, reach: float) -> Building:

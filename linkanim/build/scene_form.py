@@ -326,8 +326,11 @@ def _free(draft: Draft, known: Found) -> str:
     if free > motors:
         more = "one more bar" if free == motors + 1 else f"{free - motors} more bars"
         another = f"{('a second', 'a third')[motors - 1] if motors < 3 else 'another'} motor"
-        hanging = next((name for name in stuck if len(list(draft.bars_at(name))) < 2), stuck[0])
-        return f"Mobility {free}: {more}, {another} or a gear pair; {hanging} is loose"
+        loose = (
+            name for name in stuck if len(list(draft.bars_at(name))) < 2 and name not in draft.of("points")
+        )
+        hanging = "".join(f"; {name} is loose" for name in [*loose][:1])
+        return f"Mobility {free}: {more}, {another} or a gear pair{hanging}"
     for group in (_together(draft, stuck, name) for name in stuck):
         if mobility(draft, group | known.keys()) < 1:
             return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"

@@ -18,6 +18,7 @@ from linkanim.build.tools import TOOLS, Tool
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, unnameable
+from linkanim.mechanics.linkage import Point
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import NEW, EditRow, Overlay, Panel
@@ -298,7 +299,7 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     known = scene.linkage == state.scene.linkage and state.clock.paused and not live
     found = exchanged(replace(drawn, glide=None), scene)
     clock = found.clock.go(state.frame, building.draft.phase, paused=True)
-    stands = live or known or not any(joint.dyad for joint in scene.linkage.joints)
+    stands = live or known or not any(joint.dyad or joint.grouped for joint in scene.linkage.joints)
     found = replace(found, clock=clock, sheet=replace(sheet_of(drawn), rests=None))
     return found if stands else _once(found)
 
@@ -554,7 +555,36 @@ erase = _changed(dimensions.erase)
 _taken = _changed(dimensions.take)
 remove = _changed(gestures.delete)
 trace = _changed(gestures.trace)
-drive = _changed(gestures.drive)
+
+
+def drive(state: State, _: None) -> State:
+    """Have the chosen thing driven; what else that can mean is offered beside it."""
+    sheet = state.building
+    if sheet is None or sheet.grip:
+        return state
+    draft, thing = sheet.seen(state.scene, state.phase), sheet.building.chosen
+    ends = draft.ends(thing[1]) if thing and thing[0] == "bars" else [thing[1]] if thing else []
+    places = [draft.places[end] for end in ends if end in draft.places] or [(0.0, 0.0)]
+    middle = sum(x for x, _ in places) / len(places), sum(y for _, y in places) / len(places)
+    return _driven(_with(state, clicked=None), sheet.building, middle)
+
+
+def motor(state: State, at: tuple[float, float, float, float]) -> State:
+    """Let a motor go at a point: it turns there, on a joint or a bar."""
+    held = down(state, at)
+    if held.building is None or held.building.grip is None:
+        return state
+    grip = held.building.grip
+    dropped = gestures.motor(grip.base, *grip.at, reach=grip.reach)
+    return _driven(_with(held, grip=None), dropped, grip.at, here=True)
+
+
+def _driven(state: State, building: Building, at: Point, *, here: bool = False) -> State:
+    """Return the state with a chosen thing driven, and the other ways of it offered at a place."""
+    ways = () if building.is_refusal else tuple(gestures.drives(building, here=here))[:_OFFERED]
+    offers = tuple(Meaning(*way) for way in ways)
+    found = _shown(state, offers[0].building if offers else building)
+    return _with(found, offers=offers if len(offers) > 1 else (), offered=at)
 
 
 def reassemble(state: State, _: None) -> State:
@@ -786,6 +816,14 @@ def _handed(name: str, mouse: Mouse, screen: Screen) -> Action:
     return mouse.handed(name, screen, on_grid=thing_under(screen, *mouse.at) is None)
 
 
+def _motor(gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+    """Return the actions of a motor that is dragged from its tool: on the tool, it is the chosen thing's."""
+    if gesture.kind != "up":
+        return ()
+    mouse.drag = None
+    return (Action("drive_by") if screen.tool_at(*mouse.at) is not None else _handed("motor", mouse, screen),)
+
+
 def _of_tool(tool: Tool) -> KeyRow:
     """Return the line of a tool; a tool on a digit also has Ctrl with it, for where digits are typed."""
     key = tool.key.lower()
@@ -866,6 +904,7 @@ class OpenSheet(Mode):
                     "set a ground pin; draw a bar from a pin or joint; double-click a bar: a point of it",
                 ),
                 KeyRow("let go on a joint, line, bar", "join the bar there; make a slider; make a slot"),
+                KeyRow("drag the drive's tool", "a motor on the joint, or the bar, where it is let go"),
                 KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
                 *map(_of_tool, TAKEN),
                 KeyRow(
@@ -930,6 +969,7 @@ class OpenSheet(Mode):
         "remove": Rule(rules.nothing, remove),
         "trace_on": Rule(rules.nothing, trace),
         "drive_by": Rule(rules.nothing, drive),
+        "motor": Rule(rules.hand, motor),  # (x, y), how near counts as on it, the step of what is drawn
         "unbuild": Rule(rules.nothing, undo, answer=rules.stuck("nothing to undo")),
         "rebuild": Rule(rules.nothing, redo, answer=rules.stuck("nothing to redo")),
     }
@@ -985,6 +1025,9 @@ class OpenSheet(Mode):
             if row is not None:
                 mouse.drag = None
                 return (row,)
+            if tool is not None and TOOLS[tool].action == "drive_by":
+                mouse.drag = "motor"
+                return ()
             if tool is not None:
                 mouse.drag = None
                 return (Action(TOOLS[tool].action, TOOLS[tool].value),)
@@ -992,6 +1035,8 @@ class OpenSheet(Mode):
             mouse.turns = begun == "crank"
             mouse.drag = "paper" if begun == "paper" else "hand"
             return (_handed("hand_down", mouse, screen),) if mouse.drag == "hand" else ()
+        if mouse.drag == "motor":
+            return _motor(gesture, mouse, screen)
         if mouse.drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
             return None
         drag, stays = mouse.drag, mouse.far <= STILL * screen.size[1]

@@ -247,6 +247,7 @@ _COARSE = 10
 Drag = Literal[
     "pan",
     "crank",
+    "motor",
     "chart",
     "joint",
     "row",
