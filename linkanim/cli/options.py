@@ -519,6 +519,12 @@ _DRIVER = (
     _value("--motor X,Y", pair, "where the driver's motor stands; has --driver as well"),
 )
 
+_MIRROR = _value(
+    "--mirror LINE",
+    str,
+    'add the mirror image in a line, such as "x=40", geared to the crank: a pair of fingers',
+)
+
 
 def _limits(sizes: str, room: str) -> tuple[Argument, ...]:
     """Return the limits of what is synthesised."""
@@ -801,6 +807,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--round LENGTH", step, 'round all lengths to multiples of this, such as "0.1 mm"'),
         _flag("--open", "the curve does not close"),
         *_DRIVER,
+        _MIRROR,
         _flag("--cognates", "add the two Roberts cognates of each four-bar"),
         _flag("--json", "print a list of objects; angles in radians"),
     ),
@@ -821,6 +828,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "--prefer", choices=("compact", "angle"), help="prefer small links, or a large transmission angle"
         ),
         *_DRIVER,
+        _MIRROR,
         _value("--count N", count, "the number of answers (default: 6)", 6),
         _flag("--json", "print a list of objects; angles in radians"),
     ),

@@ -242,8 +242,12 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         count = 1 + len([*linkage.cranks]) + 2 * len(dyads)
         return f"{bars_named(count)} with {words}"
     slider = " with slider" if any(joint.travels for joint in dyads) else ""
-    if geared and any(isinstance(joint, RRR) for joint in dyads):
+    cranks = {crank.name for crank in linkage.cranks}
+    if geared and any(isinstance(joint, RRR) and cranks.issuperset(joint.ends) for joint in dyads):
         return f"geared five-bar{slider}"
+    if geared and len(dyads) > 1:
+        more = " and slider" if slider else ""
+        return f"{bars_named(1 + len(cranks) + 2 * len(dyads))} linkage with gears{more}"
     if four_bar is not None:
         name = _four_bar_name(four_bar)
         return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"

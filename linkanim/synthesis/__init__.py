@@ -9,6 +9,7 @@ From the ground up; a module imports from those before it only:
     atlas          coupler curves to start from
     fitting        the task of a path; least squares over many candidates
     drivers        a motor for a linkage whose input swings
+    pairs          a linkage and its mirror image on one motor
     answers        answers checked by the solver; cognates; files
     search         from a curve to linkages that follow it, the best first
     front          deviation, size and transmission angle judged together

@@ -58,6 +58,7 @@ from linkanim.synthesis.linkages import (
     holds,
     refuse_count,
 )
+from linkanim.synthesis.pairs import mirror_of, paired
 from linkanim.units import shown
 
 LARGEST = 8.0
@@ -151,7 +152,8 @@ def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[Guid
     degrees at least where there is one; the others follow by size. `prefer` is "compact" or "angle" to weigh
     one of these more, and lists the best of that first. For five poses all linkages are returned, for fewer a
     choice of different ones. `driver` gives each answer whose crank swings a motor that turns fully, or says
-    where that stands (x, y). The other options are described below. BadInput, with the reason, for poses and
+    where that stands (x, y); `mirror`, "x=40" or "y=0", adds its mirror image, geared to its crank. The other
+    options are described below. BadInput, with the reason, for poses and
     limits that make no sense, and if no linkage of the kind passes the poses.
     """
     refuse_count(count)
@@ -159,12 +161,14 @@ def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[Guid
     if prefer is not None and prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {' or '.join(PREFERENCES)}, or leave it out")
     motor = options.pop("driver", False)
-    place = place_of(motor)
+    place, line = place_of(motor), mirror_of(options.pop("mirror", None))
     found = answers(task_of(poses, **options), count, PREFERENCES[prefer] if prefer else None)
-    if motor is False:
-        return found
-    driven = all_driven(found, place, _on_the_way)
-    return tuple(replace(one, phases=one.driver.phases(one.angles)) if one.driver else one for one in driven)
+    if motor is not False:
+        found = tuple(
+            replace(one, phases=one.driver.phases(one.angles)) if one.driver else one
+            for one in all_driven(found, place, _on_the_way)
+        )
+    return paired(found, line)
 
 
 def _on_the_way(one: GuidedLinkage) -> Real | None:

@@ -38,6 +38,7 @@ from linkanim.synthesis.linkages import (
     holds,
     refuse_count,
 )
+from linkanim.synthesis.pairs import mirror_of, paired
 from linkanim.synthesis.search import (
     SAME,
     Pulse,
@@ -73,6 +74,7 @@ def path(
     cognates: bool = False,
     rounding: float | None = None,
     driver: Motor = False,
+    mirror: str | None = None,
     progress: Callable[[int, int], None] | None = None,
     **options: object,
 ) -> tuple[Fit, ...]:
@@ -89,15 +91,16 @@ def path(
     answer that is a cognate of one before it is not listed again.
     `rounding` rounds the lengths to that step one by one, each time fitting the rest again. `driver` gives
     each answer to an open curve whose crank swings a motor that turns fully, or says where that stands, x and
-    y. Other options are described below. BadInput for points or limits that make no sense, and if no linkage
-    was found that keeps to the limits.
+    y. `mirror`, "x=40" or "y=0", adds each answer's mirror image in that line to its scene, geared to its
+    crank: both fingers of a gripper. Other options are described below. BadInput for points or limits that
+    make no sense, and if no linkage was found that keeps to the limits.
     """
     refuse_count(count)
     if cognates and options.get("kind", "four-bar") != "four-bar":
         raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
     if prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {', '.join(PREFERENCES[:-1])} or {PREFERENCES[-1]}")
-    place = place_of(driver)
+    place, line = place_of(driver), mirror_of(mirror)
     if driver is not False and closed:
         raise BadInput("along a closed curve every crank turns fully, so it needs no driver; leave that out")
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
@@ -120,8 +123,8 @@ def path(
     listed = [replace(fit, most_exact=best or fit) for fit in found if fit]
     if not listed:
         raise BadInput(none_fits(task))
-    listed = list(with_cognates_marked(listed))
-    return tuple(listed) if driver is False else all_driven(listed, place, _on_the_way)
+    marked = with_cognates_marked(listed)
+    return paired(marked if driver is False else all_driven(marked, place, _on_the_way), line)
 
 
 def _on_the_way(fit: Fit) -> Real | None:

@@ -150,7 +150,7 @@ def test_points_that_are_not_exact_are_as_far_off_as_the_curve_is(count: int, no
     points = curves("four-bar", 1, seed=11, points=count)[0]
     size = np.hypot(np.ptp(points.real), np.ptp(points.imag))
     points = points + noise * size * random.normal(size=(count, 2)) @ np.array([1.0, 1j])
-    best = linkanim.path(points, count=1)[0]
+    best = linkanim.path(points, count=1, prefer="exact")[0]
     off = distances(best, points)
     assert best.rms == pytest.approx(math.sqrt(np.mean(off**2)), rel=1e-6)
     assert best.largest == pytest.approx(off.max(), rel=1e-6)

@@ -22,7 +22,7 @@ from linkanim.units import significant
 
 _UNIT = "mm"
 _TITLES = ("defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "crank", "class")
-_HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer")
+_HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer", "mirror")
 """Options that have the same name here and as keywords of the function."""
 
 

@@ -27,7 +27,7 @@ _UNIT = "mm"
 _POOR = 5.0
 """The deviation, in percent of the curve's size, above which a remark says that the best answer is poor."""
 _SAME_ANGLE = 1e-6
-_HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer", "cognates")
+_HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer", "cognates", "mirror")
 """Options that have the same name here and as keywords of the function."""
 _TITLES = (f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
 
