@@ -15,7 +15,7 @@ from linkanim.picture.quantities import unbounded_places
 from linkanim.share.movers import Mover, Pairs, packed, shares_of
 from linkanim.share.tables import table
 
-_NEAR = 3e-4
+_NEAR = 5e-4
 """The share of a force's greatest value by which its table may be off."""
 _STEPS = 32_000
 """Steps of a table's entries from 0 to its greatest one."""
@@ -59,6 +59,7 @@ def forces(light: Picture, dark: Picture, speed: float, pairs: Pairs) -> Mover |
         "kind": "arrows",
         "order": 0,
         "at": [one.joint or shares_of(light, one.body, at) for one, at in zip(found, starts, strict=True)],
+        "usual": len(found),
         "symbols": [one.symbol for one in found],
         **shown,
         "longest": arrows.longest,

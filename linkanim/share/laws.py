@@ -44,6 +44,24 @@ def law_of(scene: Scene, quantity: Quantity) -> Law | None:
     return None
 
 
+def parts_of(scene: Scene, quantity: Quantity) -> list[str]:
+    """Return what of a picture a quantity is of, as the page's script calls it: "v B", "l crank"."""
+    linkage, links = scene.linkage, scene.info.link_names
+    name, *kinds = quantity.token.split(".")
+    if strut := next((one for one in linkage.springs + linkage.dampers if one.name == name), None):
+        return [f"s {' '.join(strut.between)}"]
+    if quantity.unit == "N" and kinds and kinds[0] != "com_position" and name != "input":
+        return [f"f {quantity.symbol}"]
+    rate = next((word[0] for word in ("velocity", "acceleration") if kinds and kinds[0].endswith(word)), "j")
+    if any(joint.name == name for joint in linkage.joints):
+        return [f"{rate} {name}"]
+    if name == "input" and linkage.driven.body:
+        name = linkage.driven.body.name
+    if kinds and kinds[0].startswith("com_"):
+        return [f"{rate} {centre(name)}"]
+    return [f"l {links[name]}"] if name in links else []
+
+
 def _candidates(scene: Scene, token: str) -> Iterator[Law]:
     linkage = scene.linkage
     names = {joint.name: joint.name for joint in linkage.joints}

@@ -94,7 +94,7 @@ const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
     return true;
   }
 
-  const entries = model.sliders.map(({ label, number, least, most }) => {
+  const entries = model.sliders.map(({ label, at, number, least, most }) => {
     const box = document.createElement("label"), name = document.createElement("span");
     const slider = document.createElement("input"), value = document.createElement("output");
     name.textContent = label;
@@ -108,7 +108,7 @@ const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
     slider.addEventListener("input", () => { change(number, Number(slider.value)); tell(); });
     box.append(name, slider, value);
     tell();
-    return { box, reset() { slider.value = first[number]; tell(); } };
+    return { box, at, reset() { slider.value = first[number]; tell(); } };
   });
   function change(number, value) {
     solver.set(number, value);
@@ -127,7 +127,7 @@ const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
   renew();
 
   return {
-    solver, change, get on() { return on; }, get range() { return range; },
+    solver, change, rows: entries.map(({ box, at }) => [box, at]), get on() { return on; }, get range() { return range; },
     tracks, told, renew, inputAt, inputWords, speedWords,
   };
 };

@@ -107,7 +107,7 @@ class _Model:
                     "side": self._side(joint),
                 }
             case RRP() if joint.line.on is None:
-                offset = self._aside(f"{joint.name}: offset of its line", joint.line.offset)
+                offset = self._aside(joint, "offset of its line", joint.line.offset)
                 return {
                     "name": joint.name,
                     "kind": "slider",
@@ -119,7 +119,7 @@ class _Model:
                     "side": joint.side,
                 }
             case RPR():
-                offset = self._aside(f"{joint.name}: offset of its slot", joint.offset)
+                offset = self._aside(joint, "offset of its slot", joint.offset)
                 return {
                     "name": joint.name,
                     "kind": "slot",
@@ -130,7 +130,7 @@ class _Model:
                 }
             case RPP() if joint.line.on is None:
                 offset, angle = (
-                    self._aside(f"{joint.name}: offset of its line", joint.line.offset),
+                    self._aside(joint, "offset of its line", joint.line.offset),
                     joint.line.angle,
                 )
                 return {
@@ -143,10 +143,10 @@ class _Model:
                     "offset": offset,
                 }
             case Rigid():
-                first = f"{joint.name}: along {'–'.join(joint.on)}"
+                first = f"along {'–'.join(joint.on)}"
                 numbers = [
-                    self._aside(first, joint.at[0]),
-                    self._aside(f"{joint.name}: to its left", joint.at[1]),
+                    self._aside(joint, first, joint.at[0]),
+                    self._aside(joint, "to its left", joint.at[1]),
                 ]
                 return {"name": joint.name, "kind": "point", "on": joint.on, "r": numbers}
         return None
@@ -159,7 +159,10 @@ class _Model:
         if not way:
             return {"kind": "pin", "place": pin.position}
         number = self._number(
-            f"{self._first.name}–{pin.name}", abs(way), (_LEAST * abs(way), _MOST * abs(way))
+            f"{self._first.name}–{pin.name}",
+            (self._first.name, pin.name),
+            abs(way),
+            (_LEAST * abs(way), _MOST * abs(way)),
         )
         self._numbers[self._first.name, pin.name] = number
         unit = way / abs(way)
@@ -175,18 +178,23 @@ class _Model:
 
     def _bar(self, end: str, joint: Joint, which: int = 0) -> int:
         length = joint.bars[which][1]
-        number = self._number(f"{end}–{joint.name}", length, (_LEAST * length, _MOST * length))
+        number = self._number(
+            f"{end}–{joint.name}", (end, joint.name), length, (_LEAST * length, _MOST * length)
+        )
         self._numbers[end, joint.name] = number
         return number
 
-    def _aside(self, label: str, value: float) -> int:
+    def _aside(self, joint: Joint, label: str, value: float) -> int:
         reach = _ASIDE * self._longest
-        return self._number(label, value, (min(-reach, value - reach), max(reach, value + reach)))
+        label = f"{joint.name}: {label}"
+        ends = min(-reach, value - reach), max(reach, value + reach)
+        return self._number(label, (joint.name,), value, ends)
 
-    def _number(self, label: str, value: float, ends: tuple[float, float]) -> int:
+    def _number(self, label: str, at: tuple[str, ...], value: float, ends: tuple[float, float]) -> int:
+        """Keep a length, that of a part at or between these joints, and return its number."""
         self.values.append(float(value))
         number = len(self.values) - 1
-        self.shown.append({"label": label, "number": number, "least": ends[0], "most": ends[1]})
+        self.shown.append({"label": label, "at": at, "number": number, "least": ends[0], "most": ends[1]})
         return number
 
     def _side(self, joint: RRR) -> int:

@@ -59,6 +59,9 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
 
+_LIT: tuple[Colour, Colour] = (217, 72, 15), (255, 146, 43)
+"""The colour of what is pointed at, in both themes."""
+
 # Colours of a page that follows its reader's setting: each has a pair, of the light and the dark theme.
 
 
@@ -104,7 +107,7 @@ class Pairs:
         pair = [theme_of(name) for name in themes]
         ink = self.variable(pair[0].ink, pair[1].ink)
         back = self.variable(pair[0].background, pair[1].background)
-        named = f"--ink: {ink}; --back: {back};"
+        named = f"--ink: {ink}; --back: {back}; --lit: {self.variable(*_LIT)};"
         light, dark = (self._declared(n) for n in range(2))
         if stated:
             return f":root {{ color-scheme: {stated}; {named} {light} }}"
@@ -155,15 +158,31 @@ def _width_along(layer: Layer, line: Layer) -> float | None:
 
 
 def _shorter(element: str) -> str:
-    """Return a path with relative coordinates, in half the characters; another element as it is."""
-    return _LOOP.sub(_stepwise, element) if element.startswith("<path") else element
+    """Return a path with relative coordinates, in half the characters, and words without the style's."""
+    return _LOOP.sub(_stepwise, element) if element.startswith("<path") else element.replace(_RIMMED, "")
 
 
 def _stepwise(loop: re.Match[str]) -> str:
-    points = [tuple(map(float, point.split())) for point in loop[1].split("L")]
-    steps = (_number(to - begin) for pair in pairwise(points) for begin, to in zip(*pair, strict=True))
-    short = " ".join(steps).replace(" -", "-")
-    return f"M{points[0][0]:g} {points[0][1]:g}" + (f"l{short}Z" if short else "Z")
+    points = _thinned([complex(*map(float, point.split())) for point in loop[1].split("L")])
+    ways = (to - one for one, to in pairwise(points))
+    short = " ".join(_number(part) for way in ways for part in (way.real, way.imag))
+    short = _NEEDLESS.sub("", short)
+    return f"M{points[0].real:g} {points[0].imag:g}" + (f"l{short}Z" if short else "Z")
+
+
+def _thinned(points: Sequence[complex]) -> list[complex]:
+    """Return a line without the points that lie on it but for `_UNSEEN` (Ramer, 1972)."""
+    begin, end, inner = points[0], points[-1], points[1:-1]
+    if not inner:
+        return list(points)
+    way = end - begin
+    shares = ((point - begin) / way if way else 0j for point in inner)
+    feet = (begin + way * min(max(share.real, 0.0), 1.0) for share in shares)
+    offs = [abs(point - foot) for point, foot in zip(inner, feet, strict=True)]
+    far = 1 + offs.index(max(offs))
+    if offs[far - 1] <= _UNSEEN:
+        return [begin, end]
+    return [*_thinned(points[: far + 1])[:-1], *_thinned(points[far:])]
 
 
 def _number(step: float) -> str:
@@ -172,6 +191,11 @@ def _number(step: float) -> str:
 
 
 _LOOP = re.compile("M([^MZ]*)Z")
+_NEEDLESS = re.compile(r" (?=-)|(?<=\.\d) (?=\.)|(?<=\.\d\d) (?=\.)")
+"""The blanks before a minus, and before a point where the number before it has one."""
+_RIMMED = ' stroke-linejoin="round" paint-order="stroke"'
+_UNSEEN = 0.02
+"""How far off an outline may be, in pixels of the picture: 0.08 at 3840 × 2160."""
 
 
 # The paths of joints in pixels, as nodes between which a quintic is close enough for the largest screens.
@@ -514,7 +538,7 @@ class Mobile:
         for label, *both in zip(self.light.names.labels, *lines, strict=True):
             shapes = self.pairs.elements(*([line] for line in both))
             given = {"given": True} if label.of.startswith(_OF_LENGTHS) else {}
-            yield Movable(shapes, {"kind": "label", **_placed(label, self.light.view.scale), **given})
+            yield Movable(shapes, {"kind": "label", **_placed(label), **given})
 
     def _live(self, group: Group, light: Any, dark: Any) -> Mover:
         """Return the data of what the script draws anew at every pose."""
@@ -559,16 +583,28 @@ class Mobile:
         return {"kind": "damping", "between": list(light.between), **size, "barrel": barrel, "head": head}
 
     def _arrows(self, kind: Kind) -> Mover:
-        """Return the data of arrows; `gain` is their length for a rate of 1 pixel/rad (or /rad²) of phase."""
+        """Return the data of arrows, of which the `usual` first are shown, others while they are asked for.
+
+        `gain` is their length for a rate of 1 pixel/rad (or /rad²) of phase.
+        """
         scene, sides = self.light.scene, (self.light, self.dark)
         light, dark = (arrows_of(one.figure, kind, one.size[1], one.gauge, one.theme) for one in sides)
         order = light.order
         gain = light.scale(light.drive) * abs(light.drive) ** order / self.light.view.scale
         colours = self.pairs.variables((light.colour, light.halo), (dark.colour, dark.halo))
-        feet = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
+        usual = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
+        feet = [*usual, *(name for name in self.light.figure.moving if name not in usual)]
         size = {"longest": light.longest, "drawn": light.longest_drawn, "line": light.gauge.line}
         said = {"colours": colours, "words": light.words, "unit": light.unit}
-        return {"kind": "arrows", "order": order, "at": feet, "gain": gain, **size, **said}
+        return {
+            "kind": "arrows",
+            "order": order,
+            "at": feet,
+            "usual": len(usual),
+            "gain": gain,
+            **size,
+            **said,
+        }
 
 
 def shares_of(picture: Picture, body: str, place: tuple[float, float]) -> tuple[str, str, list[float]]:
@@ -584,21 +620,13 @@ def shares_of(picture: Picture, body: str, place: tuple[float, float]) -> tuple[
     return joints[0], joints[min(1, len(ends) - 1)], _pair(share)
 
 
-def _placed(label: Label, scale: float) -> Mover:
-    """Return a label's place: the parts of its anchor, as plain numbers and arrays."""
+def _placed(label: Label) -> Mover:
+    """Return a label's place: the parts of its anchor, as numbers and arrays; what is not is left out."""
     assert label.anchor is not None
     at, head, base, way, reach, flat_, turns = label.anchor
     ways = {"base": _pair(base), "way": _pair(way), "size": list(label.size)}
-    return {
-        "at": at,
-        "head": head,
-        **ways,
-        "reach": reach,
-        "flat": flat_,
-        "turns": turns,
-        "scale": scale,
-        "font": label.line,
-    }
+    bent = {name: True for name, given in (("flat", flat_), ("turns", turns)) if given}
+    return {"at": at, "head": head, **ways, "reach": reach, **bent, "font": label.line}
 
 
 def _rounding(loop: Loop, ends: Loop, *, wheel: bool) -> Any:

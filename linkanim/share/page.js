@@ -117,6 +117,55 @@
   };
   const speed = () => page.speed * state.way;
 
+  // --- lights: what is pointed at or focused lights its part of the picture, and a part all that is said of it -----
+  //
+  // A key is of a joint, "j B", its velocity, "v B", or acceleration, "a B", of a force, "f F_{A,3}", a link, "l 3", the
+  // ground's line, "g", or a spring or damper, by the joints at its ends, "s C G".
+
+  const lit = new Set();
+  const keyOf = ({ order, at, symbols }, n) => order ? `${" va"[order]} ${at[n]}` : `f ${symbols[n]}`;
+  const keysIn = (node) => JSON.parse(node.dataset.y);
+  function mark(node, keys, reached) {
+    if (!keys.length) return node;
+    node.dataset.y = JSON.stringify(keys);
+    if (reached) node.tabIndex = 0;
+    return node;
+  }
+  function relight() {
+    for (const node of document.querySelectorAll("[data-y]")) node.classList.toggle("lit", keysIn(node).some((key) => lit.has(key)));
+  }
+  function light(event) {
+    const node = [event.type === "focusout" ? null : event.target, document.activeElement].map((one) => one?.closest?.("[data-y]")).find(Boolean);
+    const keys = node ? keysIn(node) : [];
+    if (keys.length === lit.size && keys.every((key) => lit.has(key))) return;
+    lit.clear();
+    keys.forEach((key) => lit.add(key));
+    relight();
+    wake();
+  }
+  for (const kind of ["pointerover", "pointerdown", "focusin", "focusout"]) document.addEventListener(kind, light);
+
+  // Returns the keys of what is between joints: of the link that reaches to all of them, or the ground's line; else their own.
+  function keysAlong(names) {
+    if (names.length < 2) return names.map((name) => `j ${name}`);
+    const has = ({ tail, head, reaches = [], names: level = [] }) => names.every((name) => [tail, head, ...reaches, ...level].includes(name));
+    const [found] = now().data.movers.filter((mover) => (mover.link || mover.kind === "level") && has(mover));
+    return !found ? names.map((name) => `j ${name}`) : found.link ? [`l ${found.link}`] : ["g"];
+  }
+
+  // Returns the keys of a group of the picture.
+  function keysOf(mover, group) {
+    const { kind, at, tail, head, link, between } = mover;
+    if (kind === "coil" || kind === "damping") return [`s ${between.join(" ")}`];
+    if (kind === "level") return ["g"];
+    if (kind === "part" && tail === head && !mover.named) return link ? [`l ${link}`, `j ${at}`] : [`j ${at}`];
+    if (link) return [`l ${link}`];
+    const [of, name] = kind === "label" ? (group.querySelector("text")?.dataset.of || "").split(/:(.*)/s) : [];
+    if (of === "joint") return [`j ${name}`];
+    if (of === "body") return [`l ${page.links[name] || name}`];
+    return of === "dimension" || mover.named ? keysAlong([at || tail, head]) : [];
+  }
+
   // --- what moves: each kind gets its group, and gives what puts it at a pose ---------------------
   //
   // Where lengths are changed it is told the poses `before` and `after`, and works out what follows from lengths.
@@ -149,8 +198,8 @@
   // By how much a label is larger than it is drawn, and where its middle stands.
   const grownOf = ({ font }) => Math.max(1, LEAST / (font * zoom));
   function labelled(mover, place) {
-    const { at, head, base, way, reach, flat, turns, size: sides, scale } = mover;
-    const span = at === head ? [scale, 0] : sub(place(head), place(at)), turned = turns && at !== head ? mul(way, unit(span)) : way;
+    const { at, head, base, way, reach, flat, turns, size: sides } = mover;
+    const span = at === head ? [now().data.view[0], 0] : sub(place(head), place(at)), turned = turns && at !== head ? mul(way, unit(span)) : way;
     return add(add(place(at), mul(base, span)), pushed(turned, reach, by(sides, grownOf(mover)), flat));
   }
 
@@ -292,18 +341,19 @@
     },
 
     arrows(group, mover) {
-      const { at, line: thick, colours } = mover;
-      const width = 1.6 * thick;
+      const { at, line: thick, colours, usual } = mover, width = 1.6 * thick;
       const paths = at.map(() => part(group, "path", {
         fill: colours[0], stroke: colours[1], "stroke-width": 1.5 * thick, "paint-order": "stroke",
       }));
+      const keys = at.map((_, n) => keyOf(mover, n));
+      paths.forEach((path, n) => mark(path, [keys[n]]));
       return (place, pose) => {
-        const { shown, of } = arrowsOf(mover);
-        group.classList.toggle("off", !shown);
-        if (!shown) return;
+        const { shown, known, of } = arrowsOf(mover), seen = keys.map((key, n) => shown && n < usual || known && lit.has(key));
+        group.classList.toggle("off", !seen.includes(true));
         paths.forEach((path, n) => {
-          const { p, reach, seen } = of(n, pose, state.phase);
-          put(path, "d", seen ? arrow(p, reach, width) : "");
+          if (!seen[n]) return put(path, "d", "");
+          const { p, reach, seen: drawn } = of(n, pose, state.phase);
+          put(path, "d", drawn ? arrow(p, reach, width) : "");
         });
       };
     },
@@ -347,19 +397,18 @@
     },
   };
 
-  // Returns whether arrows of a kind are shown, and what gives the place and reach of one of them in a pose. Forces
+  // Returns whether arrows of a kind are shown and are known, and what gives the place and reach of one of them in a pose. Forces
   // are known for the page's own lengths alone.
   const ARROWS = ["force", "velocity", "acceleration"];
   function arrowsOf(mover) {
-    const { at, order, gain, longest, drawn } = mover;
-    const shown = state[ARROWS[order]] && (order || !own?.on);
+    const { at, order, gain, longest, drawn } = mover, known = order > 0 || !own?.on, shown = state[ARROWS[order]] && known;
     const of = (n, pose, phase) => {
       const foot = order ? pose(at[n]) : { p: footOf(at[n], pose) };
       const reach = order === 0 ? by(back(pulled(mover, n, phase)), mover.per) : by(order === 1 ? foot.v : foot.a, gain * (order === 1 ? Math.sign(speed()) : 1));
       const long = size(reach);
       return { p: foot.p, reach, seen: long > 0.01 * longest && long < drawn };
     };
-    return { shown, of };
+    return { shown, known, of };
   }
 
   // Returns where a force acts: in a joint, or at a place of a body that two of its joints tell.
@@ -434,6 +483,7 @@
     return { data, tracks, group, groups, marked, rows, charts, moves: [] };
   });
   const now = () => sides[state.side];
+  const lengthRows = () => own ? own.rows : [];
   const own = page.model && lengthsOf(page.model, {
     view: page.sides[0].view, say, short, state, byId, renewed: () => lay(),
   });
@@ -457,8 +507,19 @@
     const changed = own?.on ? { before: side.before, after: posesOf(tracks) } : null;
     side.moves = side.data.movers.map((mover, n) => {
       side.groups[n].innerHTML = side.marked[n];
+      mark(side.groups[n], keysOf(mover, side.groups[n]));
       return KINDS[mover.kind](side.groups[n], mover, tracks, changed);
     });
+    // the dimensions that have no place in the picture: r₂ = 55 mm, O₂–A
+    for (const text of side.group.querySelectorAll("[data-of=legend]")) {
+      const names = text.textContent.split(", ").at(-1).split("–");
+      mark(text, names.length === 2 && names.every((name) => tracks.has(name)) ? keysAlong(names) : []);
+    }
+    const inPicture = new Set([...side.group.querySelectorAll("[data-y]")].flatMap(keysIn)), drawn = (keys) => keys.filter((key) => inPicture.has(key));
+    mark(chart, drawn(side.charts[0]?.of || []));
+    lengthRows().forEach(([box, names]) => mark(box, drawn(keysAlong(names))));
+    layNumbers(side, drawn);
+    relight();
     side.box = [[0, wide], [0, high]];
     side.poses = changed ? changed.after : side.before;
     byId("about").classList.toggle("changed", Boolean(changed));
@@ -488,7 +549,7 @@
   function arrange() {
     const side = now(), margin = 0.04 * side.box[0][1], phases = Array.from({ length: 60 }, (_, n) => n / 60 * periodNow());
     const shown = side.data.movers.filter((mover) => mover.kind === "arrows" && arrowsOf(mover).shown);
-    const heads = shown.flatMap((mover) => mover.at.flatMap((_, n) => phases.map((phase) => {
+    const heads = shown.flatMap((mover) => mover.at.slice(0, mover.usual).flatMap((_, n) => phases.map((phase) => {
       // beside a dead centre arrows are longer than any picture
       const { p, reach } = arrowsOf(mover).of(n, (name) => tracksNow().get(name).at(phase), phase);
       return add(p, by(reach, Math.min(1, 1.5 * mover.longest / size(reach) || 0)));
@@ -525,7 +586,7 @@
     drawRows(side);
     drawCursor();
     drawInput(side);
-    if (byId("numbers").open) drawNumbers(side, pose);
+    if (byId("numbers").open) drawNumbers(pose);
     drawReading(side, pose);
   }
 
@@ -577,7 +638,8 @@
       list.replaceChildren(...rowsNow(side).flatMap((row) => {
         const name = document.createElement("dt"), value = document.createElement("dd");
         name.textContent = row.label;
-        return [name, value];
+        mark(name, row.of || [], true);
+        return [name, mark(value, row.of || [])];
       }));
     }
     rowsNow(side).forEach((row, n) => { say(list.children[2 * n + 1], rowWords(row, n)); });
@@ -778,33 +840,61 @@
         text = `${couple(world(pointer.at, view))} ${page.unit}`;
         const { link, tail, head } = pointer.mover || {};
         if (link) {
-          const [way, moved] = ["p", "v"].map((kind) => sub(pose(head)[kind], pose(tail)[kind]).map(clear));
-          const turning = -(way[0] * moved[1] - way[1] * moved[0]) / (size(way) ** 2) * speed();
-          const angle = mod(Math.atan2(-way[1], way[0]) * 180 / Math.PI, 360).toPrecision(4);
-          text = `${link}: ω = ${short(turning)} rad/s\n` +
-            `${short(size(way) / view[0])} ${page.unit} at ${short(mod(Number(angle), 360))}°`;
+          const [angle, turning] = turningOf({ tail, head }, pose), long = size(sub(pose(head).p, pose(tail).p).map(clear));
+          text = `${link}: ω = ${short(turning)} rad/s\n${short(long / view[0])} ${page.unit} at ${short(angle)}°`;
         }
       }
     }
     say(byId("reading"), text);
   }
 
-  function drawNumbers(side, pose) {
-    const row = (cell, texts) => {
-      const made = document.createElement("tr");
-      texts.forEach((text, n) => {
-        const one = made.appendChild(document.createElement(n ? cell : "th"));
-        one.textContent = text;
-        if (cell === "th" || !n) one.scope = cell === "th" ? "col" : "row";
-      });
-      return made;
+  // Lays out the tables of all numbers: of points, of links and of forces, each cell with what it tells in a pose.
+  let cells = [];
+  function layNumbers(side, drawn) {
+    const { unit: of } = page, { view, movers } = side.data;
+    const put = (id, heads, rows) => {
+      const table = byId(id), [head, body] = table.children;
+      table.classList.toggle("off", !rows.length);
+      const line = (of) => { const made = document.createElement("tr"); made.append(...of); return made; };
+      const cell = (name, scope, inside) => Object.assign(document.createElement(name), { scope }, { innerHTML: inside });
+      head.replaceChildren(line(heads.map((text) => cell("th", "col", text))));
+      body.replaceChildren(...rows.map(({ name, keys, tells }) => line([mark(cell("th", "row", name), drawn([keys[0]]), true), ...tells.map((tell, n) => {
+        const made = mark(document.createElement("td"), drawn([keys[n + 1] || keys[0]]), true);
+        cells.push([made, tell]);
+        return made;
+      })])));
     };
-    const { unit: of } = page, [head, body] = byId("numbers").querySelectorAll("thead, tbody");
-    head.replaceChildren(row("th", ["point", `position (${of})`, `velocity (${of}/s)`, `acceleration (${of}/s²)`]));
-    body.replaceChildren(...[...tracksNow().keys()].map((name) => {
-      const { place, velocity, acceleration } = inUnits(pose(name), side.data.view);
-      return row("td", [name, couple(place), rates(velocity), rates(acceleration)]);
+    cells = [];
+    put("points", ["point", `position (${of})`, `velocity (${of}/s)`, `acceleration (${of}/s²)`], [...tracksNow().keys()].map((name) => ({
+      name: escaped(name), keys: [`j ${name}`, `j ${name}`, `v ${name}`, `a ${name}`],
+      tells: [(pose) => couple(inUnits(pose(name), view).place), (pose) => rates(inUnits(pose(name), view).velocity), (pose) => rates(inUnits(pose(name), view).acceleration)],
+    })));
+    const links = new Map(movers.filter(({ link, tail, head }) => link && tail !== head).map((mover) => [mover.link, mover]));
+    put("links", ["link", "angle (°)", "ω (rad/s)", "α (rad/s²)"], [...links].map(([name, mover]) => ({
+      name: escaped(name), keys: [`l ${name}`], tells: [0, 1, 2].map((order) => (pose) => short(turningOf(mover, pose)[order])),
+    })));
+    const [pulls] = own?.on ? [] : movers.filter(({ kind, order }) => kind === "arrows" && !order);
+    put("forces", ["force", "x, y (N)", "size (N)"], (pulls?.symbols || []).map((symbol, n) => {
+      const step = 10 ** (Math.floor(Math.log10(pulls.grain[n] * 32000)) - 2), digits = Math.max(0, -Math.log10(step));
+      const told = (x) => Number.isFinite(x) ? minus((Math.round(x / step) * step + 0).toFixed(digits).replace(/^-(0\.?0*)$/, "$1")) : "∞";
+      const force = () => pulled(pulls, n, state.phase);
+      return { name: symbolic(symbol), keys: [`f ${symbol}`], tells: [() => `(${force().map(told).join(", ")})`, () => told(size(force()))] };
     }));
+  }
+  const escaped = (text) => text.replace(/[&<]/g, (letter) => ({ "&": "&amp;", "<": "&lt;" })[letter]);
+  const symbolic = (text) => escaped(text).replace(/_\{(.*)\}/, "<sub>$1</sub>");
+
+  // Returns a link's angle in degrees, its angular velocity and its angular acceleration.
+  function turningOf({ tail, head }, pose) {
+    const [p, v, a] = ["p", "v", "a"].map((kind) => back(sub(pose(head)[kind], pose(tail)[kind]).map(clear)));
+    const cross = (b) => (p[0] * b[1] - p[1] * b[0]) / size(p) ** 2, grow = (p[0] * v[0] + p[1] * v[1]) / size(p) ** 2;
+    const angle = mod(Number(mod(Math.atan2(p[1], p[0]) * 180 / Math.PI, 360).toPrecision(4)), 360);
+    const rate = (x) => Math.abs(x) < 2e-5 ? 0 : x;
+    return [angle, rate(cross(v)) * speed(), rate(cross(a) - 2 * cross(v) * grow) * speed() ** 2];
+  }
+
+  function drawNumbers(pose) {
+    for (const [cell, tell] of cells) say(cell, tell(pose));
   }
 
   // --- time, hand and keys ------------------------------------------------------------------------
@@ -950,7 +1040,7 @@
   hide("names", !sides[0].data.movers.some(({ kind }) => kind === "label"));
   hide("trace", !sides[0].data.movers.some(({ kind }) => kind === "curve"));
   for (const [order, name] of ARROWS.entries())
-    hide(name, !sides[0].data.movers.some((mover) => mover.kind === "arrows" && mover.order === order && mover.at.length));
+    hide(name, !sides[0].data.movers.some((mover) => mover.kind === "arrows" && mover.order === order && mover.usual));
   hide("theme", Boolean(page.theme));
   hide("curves", !sides.some(({ charts }) => charts.length));
   // a low page, as in a slide's frame, leaves its room to the mechanism: numbers and chart come when asked for, and

@@ -39,7 +39,7 @@ from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.share.forces import forces
-from linkanim.share.laws import Law, law_of
+from linkanim.share.laws import Law, law_of, parts_of
 from linkanim.share.lengths import model
 from linkanim.share.movers import Mobile, Pairs, begin_of, centre, packed, packed_tracks, shares_of, tracks
 from linkanim.share.tables import Tabulated, kind_of, table
@@ -75,12 +75,15 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
 
     turn = 360 if scene.info.full_turn else 0
     unit = drive.shown_unit(scene.length_unit)
-    yield _row(scene, input_words(scene), unit, 0.1, (where, (speed,))) | {"turn": turn}
+    body = scene.linkage.driven.body
+    driven = scene.info.link_names.get(body.name) if body else None
+    of_input = {"of": [f"l {driven}"] if driven else []}
+    yield _row(scene, input_words(scene), unit, 0.1, (where, (speed,))) | {"turn": turn} | of_input
     title = "input speed" if scene.info.full_turn else "input rate"
-    yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]}
+    yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]} | of_input
     for _, label, of, step in measured(scene):
         row = _row(scene, label, of.shown_unit(scene.length_unit), step, (of.shown, (speed, -speed)))
-        yield row | {"law": law_of(scene, of)}
+        yield row | {"law": law_of(scene, of), "of": parts_of(scene, of)}
 
 
 _Asked = tuple[Callable[[Motion], Any], tuple[float, ...]]
@@ -126,6 +129,7 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
     known = figure.scene.quantities
     laws = [law_of(figure.scene, known[".".join(filter(None, (of.token, name)))]) for name in of.columns]
     forth, back = (_chart(one.at(way * speed), other.at(way * speed), pairs, laws) for way in (1, -1))
+    forth["of"] = parts_of(figure.scene, of)
     del back["titles"]  # they are those of the way forth
     return [forth, back]
 
@@ -191,7 +195,7 @@ _POLICY = (
 """What a page may load: nothing but its own style and the one script that it comes with."""
 LARGEST = 200_000
 """The most bytes of a page."""
-_SHARED = 200
+_SHARED = 100
 """The fewest bytes of shapes that are stored once where they occur again."""
 _WIDTH, _HEIGHTS = 960, (480, 900)
 
@@ -268,6 +272,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
         "unit": scene.length_unit,
         "input": input_words(scene),
         "theme": shared.theme,
+        "links": {name: word for name, word in scene.info.link_names.items() if name != word},
         "sides": [side.data() for side in sides],
     }
     found = _short(found)
@@ -292,7 +297,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
 
 def _bare(script: str) -> str:
     """Return a script without its comments and indents, which would take a twentieth of the largest page."""
-    lines = map(str.strip, script.splitlines())
+    lines = (line.partition("  // ")[0].strip() for line in script.splitlines())
     return "\n".join(line for line in lines if line and not line.startswith("//"))
 
 

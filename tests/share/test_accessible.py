@@ -86,7 +86,7 @@ def test_every_control_is_reached_by_the_tab_key_and_shows_that_it_is(page: Page
     assert main(["share", "crank-rocker", "--chart", "rocker.angle", "--names", "-o", str(target)]) == 0
     page.go(target.as_uri())
     shown = page.value(
-        "[...document.querySelectorAll('button, select, input, summary')]"
+        "[...document.querySelectorAll('button, select, input, summary, [tabindex]')]"
         ".filter(one => one.checkVisibility()).length"
     )
     seen = []

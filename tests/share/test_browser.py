@@ -88,7 +88,7 @@ def test_joints_are_called_as_every_object_s_own_things(page: Page, tmp_path: Pa
     page.go(put(tmp_path, Shared(scene, names=1)))
     page.value("document.getElementById('numbers').open = true")
     assert max(farthest(page, scene, at) for at in PHASES) < FINEST
-    rows = page.value("[...document.querySelectorAll('#numbers tbody th')].map((cell) => cell.textContent)")
+    rows = page.value("[...document.querySelectorAll('#points tbody th')].map((cell) => cell.textContent)")
     centre = "constructor (centre of mass)"
     assert sorted(rows) == sorted([*(joint.name for joint in scene.linkage.joints), centre])
     assert page.messages == []
@@ -180,7 +180,7 @@ def test_rates_are_those_of_the_solver_in_all_four_digits(name: str, page: Page,
     scene = load(name)
     page.go(put(tmp_path, Shared(scene)))
     page.value("document.getElementById('numbers').open = true")
-    lines = "[...document.querySelectorAll('#numbers tbody tr')]"
+    lines = "[...document.querySelectorAll('#points tbody tr')]"
     cells = f"{lines}.map(row => [...row.children].map(one => one.textContent))"
     for at in (1.4386, *(0.37 + 0.9 * n for n in range(6))):
         go_to(page, at)
