@@ -403,10 +403,10 @@ def _crossings(vectors: Array) -> NDArray[np.intp]:
     return np.asarray(np.count_nonzero(up, axis=1) - np.count_nonzero(down, axis=1))
 
 
-def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
+def link_names(mechanism: Mechanism, turning: Callable[[], Collection[str]]) -> dict[str, str]:
     """Return each body's name; a body that the scene calls crank, rocker or coupler is named by what it does.
 
-    `turning` are the bodies that turn fully. A crank turns fully about a fixed pin, a rocker swings about
+    `turning` gives the bodies that turn fully, which no other name depends on. A crank turns fully about a fixed pin, a rocker swings about
     one, a coupler has no fixed pin. The input is the crank or the input rocker; other cranks are driven
     cranks. Further bodies of a sort are counted: second coupler. Every other name stays.
     """
@@ -427,7 +427,9 @@ def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]
     return names
 
 
-def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tuple[str | None, bool]:
+def _part_of(
+    mechanism: Mechanism, body: Body, turning: Callable[[], Collection[str]]
+) -> tuple[str | None, bool]:
     """Return crank, rocker or coupler, None for a body with another name; and whether it is the input."""
     linkage = mechanism.linkage
     own = _PARTS.fullmatch(body.name)
@@ -439,7 +441,7 @@ def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tupl
     drives = linkage.drive.joint in linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
     if not pivoted:
         return "coupler", False
-    turns = mechanism.full_turn if drives else body.name in turning
+    turns = mechanism.full_turn if drives else body.name in turning()
     return "crank" if turns else "rocker", drives
 
 
@@ -650,7 +652,7 @@ class Info:
     @cached_property
     def link_names(self) -> Mapping[str, str]:
         """What each body is called by what it does, by the name that it has in the scene."""
-        return link_names(self.mechanism, self.turning_links)
+        return link_names(self.mechanism, lambda: self.turning_links)
 
     @cached_property
     def input_name(self) -> str:

@@ -78,7 +78,7 @@ def _unit(motion: Motion) -> str:
 def _quantities(motion: Motion) -> Mapping[str, Quantity]:
     """Return all quantities by their tokens; bodies have the names of their functions (crank, rocker)."""
     solved = mechanism(motion.mechanism.linkage)
-    return register(solved.linkage, link_names(solved, turning_bodies(solved)))
+    return register(solved.linkage, link_names(solved, lambda: turning_bodies(solved)))
 
 
 def _shown(motion: Motion) -> Iterator[Quantity]:

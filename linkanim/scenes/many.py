@@ -82,8 +82,8 @@ def solve_many(
     """Solve many linkages of a scene's form in one call: one a row, each at a phase of its own.
 
     `lengths` gives some of the scene's lengths, in its unit: for each name, such as "crank", "coupler" or
-    "B.length.0", numbers (N,), or one for all; the others stay as they are. `phase` (rad) is (N,), or one for
-    all. A row is what the scene with these lengths gives at that phase; NaN where they cannot be put
+    "B.length.0", numbers (N,), or one for all; the others, all of them for {}, stay as they are. `phase`
+    (rad) is (N,), or one for all. A row is what the scene with these lengths gives at that phase; NaN where they cannot be put
     together. `derivatives` 0, 1 or 2 says how much is worked out, `speed` (rad/s) and `acceleration` (rad/s²)
     how the phase runs; the scene's own speed where none is given. A linkage at a change point, or whose input
     a dyad down the chain limits, takes as long as reading its file. BadInput, with all names, for an unknown
@@ -91,8 +91,6 @@ def solve_many(
     """
     scene = load(scene) if isinstance(scene, str) else scene
     check_derivatives(derivatives)
-    if not lengths:
-        raise BadInput("solve_many: name a length that differs; a scene as it is goes through scene.solve")
     chosen = [_number(scene, name) for name in lengths]
     given = [given_numbers(name, of, "solve_many") for name, of in (*lengths.items(), ("phase", phase))]
     count = max(one.size for one in given)
@@ -102,6 +100,9 @@ def solve_many(
     *rows, phases = (one if one.shape == (count,) else np.repeat(one.ravel(), count) for one in given)
     scene.check_turns("phase", phases)
     w, a = scene.linkage.drive.speed if speed is None else float(speed), float(acceleration)
+    if not chosen:
+        motion = scene.solve(phase=phases, speed=w, acceleration=a, derivatives=derivatives)
+        return Many(scene, phases, **{kind: getattr(motion, kind) for kind in (*VECTORS, *NUMBERS)})
     form = _form(scene, tuple(number.key for number in chosen))
     places, results, left = form.solved(rows, phases, (w, a), derivatives)
     for number, row in zip(chosen, rows, strict=True):
