@@ -406,9 +406,10 @@ def _crossings(vectors: Array) -> NDArray[np.intp]:
 def link_names(mechanism: Mechanism, turning: Callable[[], Collection[str]]) -> dict[str, str]:
     """Return each body's name; a body that the scene calls crank, rocker or coupler is named by what it does.
 
-    `turning` gives the bodies that turn fully, which no other name depends on. A crank turns fully about a fixed pin, a rocker swings about
-    one, a coupler has no fixed pin. The input is the crank or the input rocker; other cranks are driven
-    cranks. Further bodies of a sort are counted: second coupler. Every other name stays.
+    `turning` gives the bodies that turn fully, which only some names depend on. A crank turns fully about a
+    fixed pin, a rocker swings about one, a coupler has no fixed pin. The input is the crank or the input
+    rocker; other cranks are driven cranks. Further bodies of a sort are counted: second coupler. Every other
+    name stays.
     """
     full_turn = mechanism.full_turn
     parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}

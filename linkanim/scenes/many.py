@@ -83,11 +83,11 @@ def solve_many(
 
     `lengths` gives some of the scene's lengths, in its unit: for each name, such as "crank", "coupler" or
     "B.length.0", numbers (N,), or one for all; the others, all of them for {}, stay as they are. `phase`
-    (rad) is (N,), or one for all. A row is what the scene with these lengths gives at that phase; NaN where they cannot be put
-    together. `derivatives` 0, 1 or 2 says how much is worked out, `speed` (rad/s) and `acceleration` (rad/s²)
-    how the phase runs; the scene's own speed where none is given. A linkage at a change point, or whose input
-    a dyad down the chain limits, takes as long as reading its file. BadInput, with all names, for an unknown
-    one, and for anything but numbers.
+    (rad) is (N,), or one for all. A row is what the scene with these lengths gives at that phase; NaN
+    where they cannot be put together. `derivatives` 0, 1 or 2 says how much is worked out, `speed`
+    (rad/s) and `acceleration` (rad/s²) how the phase runs; the scene's own speed where none is given. A
+    linkage at a change point, or whose input a dyad down the chain limits, takes as long as reading its
+    file. BadInput, with all names, for an unknown one, and for anything but numbers.
     """
     scene = load(scene) if isinstance(scene, str) else scene
     check_derivatives(derivatives)

@@ -33,7 +33,15 @@ from linkanim.scenes.toml import text
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.drivers import Driver
 from linkanim.synthesis.fitting import FEW, PathTask
-from linkanim.synthesis.linkages import FOUR_BAR, Complex, Indices, Linkage4, LinkageKind, Real
+from linkanim.synthesis.linkages import (
+    FOUR_BAR,
+    Complex,
+    Indices,
+    Linkage4,
+    LinkageKind,
+    Real,
+    least_of_turn,
+)
 from linkanim.synthesis.roberts import CognateJoints, cognate_joints
 
 # An answer: a linkage as a scene, and how well it follows the curve according to the solver.
@@ -440,12 +448,20 @@ def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
     if task.curve.closed:
         known = answer.scene.info.transmission
         return known.least if known else math.pi / 2
-    # it is least at an end of the curve, or where it is extreme; in a swing at its limits and half-way
-    low, high, quarter = places.min(), places.max(), math.pi / 2
-    first, step = (task.kind.extreme(answer.row), math.pi) if answer.by == "angle" else (0.0, quarter)
+    # in a swing it is extreme at its limits and half-way
+    extremes = (task.kind.extreme(answer.row), math.pi) if answer.by == "angle" else (0.0, math.pi / 2)
+    return least_along(answer.scene, answer.by, (float(places.min()), float(places.max())), extremes)
+
+
+def least_along(scene: Scene, by: str, ends: tuple[float, float], extremes: tuple[float, float]) -> float:
+    """Return the least transmission angle at B between two places of the input, the lower one first.
+
+    It is least at an end, or where it is extreme: at one place and every so many radians from there.
+    """
+    (low, high), (first, step) = ends, extremes
     between = np.arange(math.ceil((low - first) / step), math.floor((high - first) / step) + 1)
     along = np.array([low, *(first + between * step), high])
-    motion = answer.scene.solve(**{answer.by: along}, derivatives=0)  # type: ignore[arg-type]
+    motion = scene.solve(**{by: along}, derivatives=0)  # type: ignore[arg-type]
     return float(np.min(transmission_angle(motion, "B")))
 
 
@@ -633,9 +649,6 @@ def _turning(answer: PathAnswer, joints: CognateJoints[Complex], point: complex)
         row = np.array(start.row)
     if not np.isfinite(row).all():
         return None
-    # the extremes of the transmission angle are where the crank lies along the ground
-    crank_, coupler, rocker_, ground = row[2], row[3], row[8], abs(other - pivot)
-    cosines = (coupler**2 + rocker_**2 - (ground + np.array([-1, 1]) * crank_) ** 2) / (2 * coupler * rocker_)
     longest, own = (FOUR_BAR.link_lengths(np.array([one]))[0].max() for one in (row, answer.row))
     return answer._replace(
         closure=start.closure,
@@ -643,7 +656,7 @@ def _turning(answer: PathAnswer, joints: CognateJoints[Complex], point: complex)
         sense=math.copysign(1.0, turned),
         row=tuple(map(float, row)),
         size=float(answer.size * longest / own),
-        angle=float(np.arccos(np.clip(np.abs(cosines), 0.0, 1.0)).min()),
+        angle=float(least_of_turn(row[2], row[3], row[8], np.abs(other - pivot))),
     )
 
 

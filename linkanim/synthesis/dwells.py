@@ -20,7 +20,6 @@ from linkanim import units
 from linkanim.bounds import can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.measures import worst_transmission
 from linkanim.mechanics.search import highest
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
@@ -366,7 +365,9 @@ def _made(
 
     rested = output(np.linspace(0.0, rest, _LOOKED_AT))
     turned = output(np.linspace(0.0, math.tau, 2 * _LOOKED_AT))
-    angle = _least_transmission(scene)
+    known = scene.info.transmission
+    assert known is not None
+    angle = known.least
     whole = (high - low) * (scale if sliding else 1.0)
     if not abs(np.ptp(turned) - whole) <= _SEEN * whole:
         return None
@@ -384,17 +385,6 @@ def _made(
         size=longest * scale,
         figures=Figures(deviation / whole, size, size, angle),
     )
-
-
-def _least_transmission(scene: Scene) -> float:
-    """Return the least transmission angle (rad) of both dyads over the turn."""
-    angles = np.linspace(0.0, math.tau, _LOOKED_AT)
-
-    def poor(at: Real) -> Real:
-        return -np.asarray(worst_transmission(scene.solve(phase=at, derivatives=0), ("B", "D")))
-
-    place = highest(poor, float(angles[poor(angles).argmax()]), 2 * angles[1])
-    return -float(poor(np.array([place]))[0])
 
 
 def _document(

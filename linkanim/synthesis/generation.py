@@ -26,7 +26,7 @@ from linkanim.intake import meant
 from linkanim.mechanics.search import sign_changes
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.answers import Figures
+from linkanim.synthesis.answers import Figures, least_along
 from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
 from linkanim.synthesis.drivers import Driver, all_driven, place_of
 from linkanim.synthesis.front import differ, led
@@ -973,6 +973,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         scene = scene_from({**document, **stated}, name=task.name, where=task.name)
     except (AssemblyError, SceneError):
         return None
+    ends = min(start, start + wide), max(start, start + wide)
     return Generated(
         scene=scene,
         parameters=({"ground": length} if kind.turning else {})
@@ -984,7 +985,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         input_range=wide,
         output_start=first,
         output_range=high,
-        transmission_angle=_least_transmission(task, design),
+        transmission_angle=least_along(scene, "angle", ends, (kind.in_line, math.pi)),
         chebyshev=design.chebyshev if task.level else float(np.abs(worst).max()),
         task=task,
     )
@@ -1021,15 +1022,3 @@ def _solved_errors(
     if kind.turning:
         off = np.remainder(off + math.pi, math.tau) - math.pi
     return np.asarray(off * (function.span / high))
-
-
-def _least_transmission(task: FunctionTask, design: _Design) -> float:
-    """Return the least transmission angle over the range: at an end, or where the crank is `in_line`."""
-    first, wide = float(design.row[3]), design.input_range
-    lines = task.kind.in_line + math.pi * np.arange(-6.0, 7.0)
-    shares = np.concatenate([[0.0, 1.0], (lines - first) / wide])
-    shares = shares[(shares >= 0) & (shares <= 1)]
-    near = np.zeros(len(shares))
-    cosine = task.kind.outputs(design.row[None], np.array([design.closure]), shares * wide, near)[1]
-    worst = min(float(np.abs(cosine).max()), 1.0)
-    return math.atan2(math.sqrt((1 - worst) * (1 + worst)), worst)

@@ -54,6 +54,7 @@ from linkanim.synthesis.linkages import (
     LinkageKind,
     Real,
     Requirements,
+    angle_of,
     boxes_of,
     holds,
     refuse_count,
@@ -550,7 +551,7 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
     for place, half in ((p + q, 0.0), (p - q, math.pi)):
         passed = np.floor((turned[:, 0] - half) / math.tau) != np.floor((turned[:, -1] - half) / math.tau)
         cosine = np.where(passed & ~defects.any(axis=1), np.maximum(cosine, np.abs(place)), cosine)
-    transmission = np.arctan2(np.sqrt(np.maximum((1 - cosine) * (1 + cosine), 0.0)), cosine)
+    transmission = angle_of(cosine)
     with np.errstate(all="ignore"):
         arm = (poses.origins[0] - pairs.pin) * np.conj(coupler[:, 0]) / np.abs(coupler[:, 0])
     base = pairs.pivot.real, pairs.pivot.imag, r2, r3, arm.real, arm.imag

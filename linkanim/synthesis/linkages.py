@@ -225,6 +225,21 @@ def _assembled(random: np.random.Generator, crank: Real, coupler: Real, grounds:
     return np.stack([nothing, nothing, crank, coupler, along, across, *grounds], axis=1)
 
 
+def angle_of(cosine: Real) -> Real:
+    """Return a transmission angle (rad) by its cosine, not negative; 0 of 1 and more."""
+    return np.arctan2(np.sqrt(np.maximum((1 - cosine) * (1 + cosine), 0.0)), cosine)
+
+
+def least_of_turn(crank: Real, coupler: Real, rocker: Real, ground: Real) -> Real:
+    """Return the least transmission angle (rad) of four-bars whose cranks turn fully; 0 of others.
+
+    It is extreme where the crank lies along the ground.
+    """
+    with np.errstate(all="ignore"):
+        inner, outer = (coupler**2 + rocker**2 - (ground + sign * crank) ** 2 for sign in (-1, 1))
+        return angle_of(np.maximum(np.abs(inner), np.abs(outer)) / (2 * coupler * rocker))
+
+
 class FourBarKind(LinkageKind):
     """Crank, coupler and rocker, with a coupler point along A -> B and to its left."""
 

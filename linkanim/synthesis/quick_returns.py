@@ -26,7 +26,7 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.search import highest
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
-from linkanim.synthesis.linkages import Real, refuse_count
+from linkanim.synthesis.linkages import Real, angle_of, least_of_turn, refuse_count
 from linkanim.units import shown
 
 COUNT = 5
@@ -124,15 +124,11 @@ class DeadCentreFamily:
             if self.kind == "slider-crank":
                 crank, coupler, off = self.lengths(x)
                 # if the pivot's foot is between the dead centres, the nearer one is in the other circuit
-                cosine = np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan)
+                found = angle_of(np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan))
             else:
                 crank, coupler, rocker, ground = self.rocker(x)
-                ends = (
-                    (coupler**2 + rocker**2 - (np.abs(ground) + sign * crank) ** 2) / (2 * coupler * rocker)
-                    for sign in (-1, 1)
-                )
-                cosine = np.maximum(*map(np.abs, ends))
-            return np.where(cosine < 1, np.arctan2(np.sqrt((1 - cosine) * (1 + cosine)), cosine), np.nan)
+                found = least_of_turn(crank, coupler, rocker, np.abs(ground))
+            return np.where(found > 0, found, np.nan)
 
     def at(self, longer: float) -> float:
         """Return the x of a coupler that is so many cranks long."""
