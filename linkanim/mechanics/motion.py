@@ -99,23 +99,19 @@ def laid_out(
     return Layout(places, vectors, np.array(rated, bool)), outputs
 
 
-def arrays(layout: Layout, results: Array, shape: tuple[int, ...]) -> dict[str, Any]:
-    """Return quantities by kind and name: views of the results, and of the pairs of pins.
+def arrays(layout: Layout, results: Array, shape: tuple[int, ...], kind: str) -> dict[str, Array]:
+    """Return the quantities of a kind by name: views of the results, and of the pairs of pins.
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
     """
-    (places, vectors, _), count, still = layout, results.shape[1], (*[0] * len(shape), 8)
-    pairs = results[: 2 * vectors].reshape(vectors, 2, count).transpose(0, 2, 1)
-    points = list(pairs.reshape(vectors, *shape, 2))
-    numbers = [row.reshape(shape) for row in results[2 * vectors :]]
+    places, vectors = layout.places[kind], layout.vectors
+    if kind not in VECTORS:
+        return {name: results[2 * vectors + place].reshape(shape) for name, place in places.items()}
+    pairs = results[: 2 * vectors].reshape(vectors, 2, -1).transpose(0, 2, 1).reshape(vectors, *shape, 2)
+    still = (*[0] * len(shape), 8)
     return {
-        kind: {
-            name: (points if kind in VECTORS else numbers)[place]
-            if isinstance(place, int)
-            else np.ndarray((*shape, 2), np.float64, place, 0, still)
-            for name, place in there.items()
-        }
-        for kind, there in places.items()
+        name: pairs[place] if isinstance(place, int) else np.ndarray((*shape, 2), np.float64, place, 0, still)
+        for name, place in places.items()
     }
 
 
@@ -375,23 +371,39 @@ class Motion(Derived[Array, Array]):
     """
 
     asked: Asked
+    _layout: Layout
+    _results: Array
 
     def __init__(self, mechanism: Mechanism, asked: Asked, out: Array | None = None) -> None:
-        speed, acceleration = (_shaped(rate, asked.shape) for rate in asked.rates)
-        vars(self).update(mechanism.solved(asked, out))
+        speed, acceleration = asked.rates
+        if asked.variant.varying_rate:
+            speed, acceleration = speed.reshape(asked.shape), acceleration.reshape(asked.shape)
+        layout, results = mechanism.solved(asked, out)
         vars(self).update(
-            mechanism=mechanism, asked=asked, input_speed=speed, input_acceleration=acceleration
+            mechanism=mechanism,
+            asked=asked,
+            input_speed=speed,
+            input_acceleration=acceleration,
+            _layout=layout,
+            _results=results,
         )
+        for kind in COORDINATE:
+            if kind in layout.places:
+                vars(self)[kind] = arrays(layout, results, asked.shape, kind)[""]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was asked for, which is worked out anew."""
         return Motion, (self.mechanism, self.asked)
 
     def __getattr__(self, name: str) -> Any:
-        """Return nothing of a kind that was not asked for."""
+        """Return the quantities of a kind by name, nothing of one that was not asked for."""
         if name not in DERIVATIVE_OF:
             raise self._missing("a motion", name)
-        return NOTHING
+        if name not in self._layout.places:
+            return NOTHING
+        found = {name: arrays(self._layout, self._results, self.asked.shape, name)}
+        vars(self).update(found if self.asked.joints is not None else self.mechanism.placed(found))
+        return vars(self)[name]
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
@@ -762,34 +774,30 @@ class Mechanism:
                 raise ValueError(f"out= is an array of floats that can be written, in C's order: {wanted}")
         return Motion(self, asked, out)
 
-    def solved(self, asked: Asked, out: Array | None = None) -> dict[str, Any]:
-        """Return what is asked for by kind and name, and the coordinate of an input that swings by phase."""
+    def solved(self, asked: Asked, out: Array | None = None) -> tuple[Layout, Array]:
+        """Return what is asked for in rows, and where it lies there."""
         program, layout = self.program(asked.variant, asked.derivatives, asked.joints)
         path = self.assembly.path
         rates = asked.rates if asked.variant.accelerates else asked.rates[:1]
         distances, back = asked.distances, asked.back
         if asked.variant.varying_rate and back is not None:
             rates, back = tuple(np.where(back, -rate, rate) for rate in rates), None
-        with np.errstate(all="ignore"):
-            given = (asked.x,) if distances is None else path.solved_from(distances)
-            rows = None if out is None else out.reshape(-1, len(asked.x))
-            results = program(*given, *rates, out=rows)
-            if back is not None and back.any():
-                results[:, back] = program(asked.x[back], *(-rate for rate in rates))
-            if distances is not None:
-                results[:, distances.outside] = np.nan
-                if distances.at_limit.any():
-                    snapped = program(*path.solved_from(distances.snapped), *rates)
-                    limits = np.ix_(layout.rated, distances.at_limit)
-                    results[limits] = np.where(np.isnan(snapped[limits]), np.inf, snapped[limits])
+        given = (asked.x,) if distances is None else path.solved_from(distances)
+        results = program(*given, *rates, out=None if out is None else out.reshape(-1, len(asked.x)))
+        if back is not None and back.any():
+            results[:, back] = program(asked.x[back], *(-rate for rate in rates))
+        if distances is not None:
+            results[:, distances.outside] = np.nan
+            if distances.at_limit.any():
+                snapped = program(*path.solved_from(distances.snapped), *rates)
+                limits = np.ix_(layout.rated, distances.at_limit)
+                results[limits] = np.where(np.isnan(snapped[limits]), np.inf, snapped[limits])
         if asked.joints is not None and self.linkage.near is not self.linkage:
             x, y = self.linkage.origin
             results[: 2 * len(asked.joints) : 2] += x
             results[1 : 2 * len(asked.joints) : 2] += y
         results.setflags(write=False)
-        found = arrays(layout, results, asked.shape)
-        found |= {kind: found[kind][""] for kind in COORDINATE if kind in found}
-        return found if asked.joints is not None else self.placed(found)
+        return layout, results
 
     def program(
         self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None = None
@@ -888,16 +896,13 @@ def _rates(
     return (float(w), float(a)), shape
 
 
-def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:
-    """Return a rate in a shape: arrays have it, one number holds for all."""
-    return rate.reshape(shape) if isinstance(rate, np.ndarray) else rate
-
-
 def _kept(values: Array, shape: tuple[int, ...]) -> Array:
     """Return the values along one axis, repeated to the shape and read-only."""
-    if values.base is not None or values.flags.writeable or values.shape != shape:
-        values = values.copy() if values.shape == shape else np.array(np.broadcast_to(values, shape))
-        values.flags.writeable = False
+    if values.shape != shape:
+        values = np.array(np.broadcast_to(values, shape))
+    elif values.base is not None or values.flags.writeable:
+        values = values.copy()
+    values.setflags(write=False)
     return values if values.ndim == 1 else values.reshape(-1)
 
 

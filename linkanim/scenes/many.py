@@ -113,7 +113,7 @@ def solve_many(
         places, rows_of = _layout_of(pose(scene, 0.0), derivatives)
         results = np.full((rows_of, count), np.nan)
     results[:, left] = np.nan
-    found = arrays(places, results, (count,))
+    found = {kind: arrays(places, results, (count,), kind) for kind in places.places}
     for n in np.flatnonzero(left):
         try:
             one = with_dimensions(scene, {k.key: float(row[n]) for k, row in zip(chosen, rows, strict=True)})
