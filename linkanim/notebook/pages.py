@@ -22,7 +22,7 @@ from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.quantities import around
-from linkanim.picture.text import Type
+from linkanim.picture.text import letters
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
@@ -128,7 +128,7 @@ def _chart(motion: Motion, quantity: Quantity) -> str:
     turns = coordinate.is_angle and bool((steps > 0).all() or (steps < 0).all())
     x = np.degrees(motion.coordinate if turns else motion.phase)
     values = np.asarray(quantity.shown(motion), float)
-    type_, parts = Type(), layout(_CHART)
+    type_, parts = letters(), layout(_CHART)
     pen = pen_for(parts, type_, LIGHT)
     y_axis = around(values, most=4)
     area = plot_area(Rect(0, 0, *_CHART), y_axis, pen, foot=True)

@@ -15,14 +15,14 @@ from linkanim.picture.look import ThemeName
 from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.surface import printed
-from linkanim.picture.text import Type
+from linkanim.picture.text import Type, letters
 from linkanim.picture.theme import on_paper, theme_of
 
 
 def page_pen(size: tuple[int, int], theme: ThemeName, type_scale: float = 1.0, *, ground: bool = True) -> Pen:
     """Return the pen for a page of `size` pixels, words `type_scale` times as large, on a ground or none."""
     known = theme_of(theme)
-    return pen_for(layout(size, type_scale=type_scale), Type(), known if ground else on_paper(known))
+    return pen_for(layout(size, type_scale=type_scale), letters(), known if ground else on_paper(known))
 
 
 def page_surface(
@@ -92,4 +92,4 @@ class Illustration(NamedTuple):
 
     def surface(self) -> pygame.Surface:
         """Return the picture drawn."""
-        return page_surface(self.size, self.background, self.drawn, Type())
+        return page_surface(self.size, self.background, self.drawn, letters())

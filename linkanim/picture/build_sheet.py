@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from math import ceil
 
 import numpy as np
@@ -47,9 +48,8 @@ _HANDLES = 12
 """Points of a stroke that are marked; every one can be dragged."""
 
 
-def sheet(setting: DrawSetting) -> Group:
+def sheet(view: View, layout: Layout, theme: Theme) -> Group:
     """Return the empty sheet: lines at round distances in the scene's unit."""
-    view, layout, theme = setting.view, setting.layout, setting.theme
     width, height = layout.size
     step = view.scale * grid_step(view, layout)
     x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
@@ -280,10 +280,17 @@ def home_view(home: Box, layout: Layout) -> View:
 
 
 def paper(setting: DrawSetting, photo: Photo | None) -> Group:
-    """Return the empty sheet: a light grid over a photograph, and the ground line through the origin."""
-    view, layout, gauge, theme = setting.view, setting.layout, setting.gauge, setting.theme
+    """Return the empty sheet: a light grid over a photograph, and the ground line through the origin.
+
+    It is the same object while a hand changes the linkage, so that it is filled once.
+    """
+    return _paper(setting.view, setting.layout, setting.gauge, setting.theme, photo)
+
+
+@lru_cache(maxsize=2)
+def _paper(view: View, layout: Layout, gauge: Gauge, theme: Theme, photo: Photo | None) -> Group:
     laid = photo and Photograph(photo, view, theme.background)
-    grid, (_, level) = sheet(setting), view.to_pixel(0.0, 0.0)
+    grid, (_, level) = sheet(view, layout, theme), view.to_pixel(0.0, 0.0)
     width, height = layout.size
     if not -20 * layout.unit < level < height:
         return grid._replace(under=laid)

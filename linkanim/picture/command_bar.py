@@ -15,7 +15,7 @@ from linkanim.picture.layout import HEAD_OF_CHART, Gauge, Layout
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
-from linkanim.picture.text import Type
+from linkanim.picture.text import letters
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
@@ -160,7 +160,7 @@ class BarPrinter:
     """Paints the bar; its last drawing is cached, and so is each button in each of its states."""
 
     def __init__(self) -> None:
-        self._type = Type()
+        self._type = letters()
         self._board: Board | None = None
         self._kept: tuple[object, list[tuple[Rect, pygame.Surface, bool]]] | None = None
         self._faces: dict[_Sized, pygame.Surface] = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import product
 
 import numpy as np
@@ -15,7 +15,7 @@ from linkanim.picture.centres import CentrePairs
 from linkanim.picture.dead_centres import DeadCentres, dead_centres_of
 from linkanim.picture.dimensions import Symbols, symbols
 from linkanim.picture.figure import DrawSetting, Figure, figure
-from linkanim.picture.fit import Extent, around, each, fitted, of_linkage, together
+from linkanim.picture.fit import Extent, around, each, fitted, nearest, of_linkage, together
 from linkanim.picture.hud import (
     Legendary,
     WidestRow,
@@ -40,9 +40,10 @@ from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Arrows, Sliding, Turning, arrows_for, motion_of
 from linkanim.picture.names import Names, names_of
 from linkanim.picture.quantities import chart_tokens
-from linkanim.picture.text import Type, subscripted
-from linkanim.picture.theme import Theme
+from linkanim.picture.text import Type, letters, subscripted
+from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Rect, View
+from linkanim.scenes.editing import ghost_of
 from linkanim.scenes.scene import Scene
 
 _KEEPS = 0.75
@@ -125,7 +126,7 @@ def wanted(
     )
 
 
-@frozen
+@frozen(eq=False)
 class Subject:
     """A scene's figure, and perhaps a second scene beside it, such as its other closure."""
 
@@ -140,7 +141,7 @@ class Subject:
     @cached_property
     def rows(self) -> tuple[WidestRow, ...]:
         """The rows of their readout, at their widest."""
-        return widest_rows(self.scenes, Type())
+        return widest_rows(self.scenes, letters())
 
     @cached_property
     def figures(self) -> tuple[Figure, ...]:
@@ -163,44 +164,34 @@ class Composition:
     """The rows that the legend has room for."""
     extent: Extent | None = None
 
-    @property
-    def has_room(self) -> bool:
-        """Whether all that the linkage passes lies on its stage."""
-        found = together(of_linkage(one, self.gauge) for one in self.subject.figures).pixels(self.view)
-        stage = self.layout.stage
-        return (
-            stage.x <= found.x
-            and found.right <= stage.right
-            and stage.y <= found.y
-            and found.bottom <= stage.bottom
-        )
+    def held(self, subject: Subject) -> Composition:
+        """Return the composition while a hand changes the linkage: words and names stay where they are.
 
-    def view_of(self, shown: Figure) -> View:
-        """Return the view of the subject's figure; a figure on its way to it has the same scale and place."""
-        view, whole = self.view, self.subject.figure
-        if shown is whole:
-            return view
-        wide, high = (shown.box.right - shown.box.left, shown.box.high - shown.box.low)
-        spans = ((whole.box.right - whole.box.left, wide), (whole.box.high - whole.box.low, high))
-        share = min((span / own for span, own in spans if own > 0), default=1.0)
-        x, y = view.to_pixel(*whole.box.middle)
-        across, up = shown.box.middle
-        scale = view.scale * share
-        return View(scale, x - scale * across, y + scale * up)
+        The view stays, too, as long as all that the linkage passes lies on its stage.
+        """
+        figured = symbols(subject.figure) if self.wanted.names > 1 else None
+        names = self.names.measuring(figured, subject.figure.scene.length_unit)
+        extent = together(of_linkage(one, self.gauge) for one in subject.figures)
+        view = nearest(extent, self.view, self.layout.stage)
+        return replace(self, subject=subject, names=names, view=view)
 
 
-def composed(
-    subject: Subject, look: Look, asked: Wanted, type_: Type, theme: Theme, kept: Composition | None = None
-) -> Composition:
-    """Return the composition of a subject in a look.
+@lru_cache(maxsize=8)
+def subject_of(scene: Scene, *, ghost: bool) -> Subject:
+    """Return a scene as a subject, with its other closure beside it where that is shown."""
+    return Subject(figure(scene), ghost_of(scene) if ghost else None)
 
-    With one `kept`, such as while a hand changes the linkage, view and names stay where they are in that.
-    """
-    if kept is not None:
-        figured = symbols(subject.figure) if asked.names > 1 else None
-        names = kept.names.measuring(figured, subject.figure.scene.length_unit)
-        return replace(kept, subject=subject, names=names)
-    return _Composer(subject, look, asked, type_, theme).composition()
+
+def composed(subject: Subject, asked: Wanted, look: Look) -> Composition:
+    """Return the composition of a subject in a look, which is that of any theme, zoom and quantity."""
+    return _composed(
+        subject, asked, replace(look, theme="light", zoom=1.0, pan=(0.0, 0.0), chart=None, over=None)
+    )
+
+
+@lru_cache(maxsize=8)
+def _composed(subject: Subject, asked: Wanted, look: Look) -> Composition:
+    return _Composer(subject, look, asked, letters(), theme_of(look.theme)).composition()
 
 
 @frozen

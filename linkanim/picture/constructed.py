@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from itertools import combinations
 from math import inf
 from typing import get_args
@@ -154,6 +155,7 @@ def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
     return ConstructionShown(last, steps[:at], len(steps))
 
 
+@lru_cache(maxsize=2)
 def found_by(scene: Scene, at: int, phase: float) -> tuple[complex, ...]:
     """Return the points that a construction has found up to a step, but for those far from the linkage."""
     box = figure(scene).box

@@ -18,7 +18,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import outlines
 from linkanim.picture.gears import wheels
 from linkanim.picture.layout import Gauge
-from linkanim.picture.view import Box, Rect, View
+from linkanim.picture.view import Box, Rect, View, moved
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -103,6 +103,19 @@ def fitted(extent: Extent, room: Rect) -> View:
     x = room.middle.real - ((scale * right + east).max() + (scale * left - west).min()) / 2
     y = room.middle.imag - ((bottom - scale * low).max() + (-scale * high - top).min()) / 2
     return View(scale, float(x), float(y))
+
+
+def nearest(extent: Extent, view: View, room: Rect) -> View:
+    """Return the view in which an extent lies in a room, changed as little as that takes."""
+    at = extent.pixels(view)
+    if room.holds(at.x, at.y) and room.holds(at.right, at.bottom):
+        return view
+    share = min(room.width / at.width, room.height / at.height, 1.0)
+    view = moved(view, (at.middle.real, at.middle.imag), zoom=share, pan=(0.0, 0.0))
+    at = extent.pixels(view)
+    right = max(room.x - at.x, 0.0) + min(room.right - at.right, 0.0)
+    down = max(room.y - at.y, 0.0) + min(room.bottom - at.bottom, 0.0)
+    return View(view.scale, view.x + right, view.y + down)
 
 
 def _largest(begin: Floats, end: Floats, before: Floats, after: Floats, room: float) -> float:

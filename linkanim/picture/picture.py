@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from math import ceil, tau
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.centres import Centres
 from linkanim.picture.chart import ChartStrips, chart_strips, pen_for
-from linkanim.picture.composition import Composition, Subject, composed, wanted
+from linkanim.picture.composition import Composition, composed, subject_of, wanted
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import LISTED_STEP, Hud, Legend, caption_lines, legend_for, measured
@@ -32,14 +31,13 @@ from linkanim.picture.overlay import (
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import Part, Places, box
-from linkanim.picture.text import Type
+from linkanim.picture.text import Type, letters
 from linkanim.picture.theme import Theme, on_paper, theme_of
 from linkanim.picture.view import Box, Rect, View, moved
 from linkanim.scenes.editing import ghost_of, in_unit
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
-    from linkanim.build.draft import Photo
     from linkanim.picture.layered import Layered
     from linkanim.picture.polygons import Polygon
     from linkanim.synthesis.curves import DrawnCurve
@@ -55,14 +53,14 @@ class Picture:
     """A scene at one pixel size and look: places are worked out once, and `groups` describes a pose.
 
     The view fits what is shown: the scene, its other closure where the look shows that, and the places `also`
-    (in the scene's unit). The look zooms and pans it. With a view `home` it is that one; with `sheet`, the
-    rectangle of the scene on which a linkage is built. What is `docked` in the window has room of its own.
+    (in the scene's unit), or the rectangle of the scene that is the `sheet` on which a linkage is built. The
+    look zooms and pans it. On its way to that it is the `view` that is given, with charts and polygons
+    `aside` of their slots by so many pixels. What is `docked` in the window has room of its own.
 
     With a `moment` it is a still: fitted to the pose at that phase, its names where they are best in it. With
-    `apart` each joint has a group of its own. What the picture `before` measured of the same scene is reused;
-    while the scene is `held` by a hand, or turns into another, view and names stay as they are there. The
-    attribute `scene` is in the look's unit. Raises BadInput where the look's chart is no quantity of the
-    scene.
+    `apart` each joint has a group of its own. While a hand changes the scene, words and names stay where they
+    are for the scene `placed`. The attribute `scene` is in the look's unit. Raises BadInput where the look's
+    chart is no quantity of the scene.
     """
 
     def __init__(
@@ -70,85 +68,63 @@ class Picture:
         scene: Scene,
         size: tuple[int, int],
         look: Look,
-        before: Picture | None = None,
         *,
-        held: bool = False,
+        view: View | None = None,
+        aside: tuple[float, float] = (0.0, 0.0),
+        moment: float | None = None,
+        placed: Scene | None = None,
         docked: Docked = NOTHING_DOCKED,
         apart: bool = False,
-        home: View | None = None,
         sheet: Box | None = None,
-        moment: float | None = None,
         also: tuple[complex, ...] = (),
     ) -> None:
-        self._made_for = scene, size, look, docked, held, sheet, also
-        self._aside = 0.0, 0.0
-        self.sheet, self.held, self.also = sheet, held, also
+        self._aside = aside
+        self.sheet, self.held = sheet, placed is not None
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
-        self.type: Type = before.type if before else Type()
+        self.type: Type = letters()
         theme = theme_of(look.theme, lit=look.material == "lit")
         self.theme: Theme = theme if look.background else on_paper(theme)
         self._apart, self._moment = apart, moment
-        self.composition: Composition = self._composed(before, docked, also)
+        placed = placed and in_unit(placed, look.unit)
+        self.composition: Composition = self._composed(placed, docked, also)
         subject = self.composition.subject
-        self.figure: Figure = figure(scene) if scene.towards else subject.figure
+        self.figure: Figure = figure(self.scene) if scene.towards else subject.figure
         self.layout: Layout = self.composition.layout
         self.names: Names = self.composition.names
-        self.fitted: View = home or self._of_sheet or self.composition.view_of(self.figure)
+        self.fitted: View = self._of_sheet or self.composition.view
         """The view before zoom and pan."""
         (right, down), height = look.pan, self.size[1]
-        self._home = home
-        self.view: View = moved(self.fitted, self.about, zoom=look.zoom, pan=(right * height, down * height))
+        self.view: View = view or moved(
+            self.fitted, self.about, zoom=look.zoom, pan=(right * height, down * height)
+        )
         self.gauge: Gauge = self.composition.gauge
         if self.sheet:
-            self.gauge = gauge(self.layout.unit, self.figure.shortest * self.fitted.scale)
+            shortest = (
+                subject_of(placed, ghost=look.ghost).figure.shortest if placed else self.figure.shortest
+            )
+            self.gauge = gauge(self.layout.unit, shortest * self.fitted.scale)
         setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
         self.drawing = Drawing(setting, apart=apart, moment=moment)
         self._chart: ChartStrips | None = self._charted()
-        self._papered: tuple[Photo | None, Group] | None = None
-        if before and sheet and (before.view, before.size, before.theme) == (self.view, size, self.theme):
-            self._papered = before._papered
         self._fastest: tuple[str, tuple[float, float]] | None = None
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
 
-    def on_its_way(self, view: View, aside: tuple[float, float]) -> Picture:
-        """Return the picture in another view, with charts and polygons `aside` of their slots, in pixels."""
-        passing = copy(self)
-        for name in ("_standing", "_discs", "_dimension_lines", "_legend", "_polygons"):
-            passing.__dict__.pop(name, None)
-        passing.view, passing._aside, passing._behind = view, aside, None
-        setting = replace(self.drawing.setting, view=view)
-        passing.drawing = Drawing(setting, apart=self._apart, moment=self._moment)
-        passing._chart = passing._charted()
-        return passing
-
-    def _composed(self, before: Picture | None, docked: Docked, also: tuple[complex, ...]) -> Composition:
-        """Return the composition: the one before where it still holds, else a new one."""
-        goal, look, moment = self._goal, self.look, self._moment
+    def _composed(self, placed: Scene | None, docked: Docked, also: tuple[complex, ...]) -> Composition:
+        """Return the composition of the scene, or that of the one `placed` with this scene in a hand."""
+        goal, look = self._goal, self.look
+        subject = subject_of(placed or goal, ghost=look.ghost)
         if look.centres:
-            also = (*also, *self._near_centres)
-        last = before.composition if before else None
-        other = ghost_of(goal) if look.ghost else None
-        subject = last.subject if last else None
-        if subject is None or subject.figure.scene is not goal or subject.beside is not other:
-            subject = Subject(figure(goal), other)
-        asked = wanted(goal, self.size, look, docked, moment, also)
-        if last and last.wanted == asked:
-            if last.subject is subject:
-                return last
-            follows = self.held or self.scene.towards is not None
-            if follows:
-                kept = composed(subject, look, asked, self.type, self.theme, last)
-                if kept.has_room:
-                    return kept
-        return composed(subject, look, asked, self.type, self.theme)
+            also = (*also, *self._near_centres(subject.figure))
+        asked = wanted(placed or goal, self.size, look, docked, self._moment, also)
+        found = composed(subject, asked, look)
+        return found if placed in (None, goal) else found.held(subject_of(goal, ghost=look.ghost))
 
-    @property
-    def _near_centres(self) -> tuple[complex, ...]:
-        """The instant centres near the linkage, in its pose or over its cycle, which the view includes."""
+    def _near_centres(self, shown: Figure) -> tuple[complex, ...]:
+        """Return the instant centres near a linkage, in its pose or cycle, which the view includes."""
         from linkanim.picture.centres import CentrePairs
 
-        shown, scene = figure(self._goal), self._goal
+        scene = shown.scene
         pairs, count = CentrePairs(shown), round(_LOOKED_AT * max(scene.period / tau, 1))
         if self._moment is not None:
             pose = scene.pose(self._moment, 2)
@@ -158,7 +134,7 @@ class Picture:
     @property
     def about(self) -> tuple[float, float]:
         """The pixel about which the look zooms: the stage's middle; of paper, which stays, the window's."""
-        whole = Rect(0, 0, *self.size) if self._home or self.sheet else self.layout.stage
+        whole = Rect(0, 0, *self.size) if self.sheet else self.layout.stage
         return whole.middle.real, whole.middle.imag
 
     @property
@@ -169,20 +145,6 @@ class Picture:
         from linkanim.picture.build_sheet import home_view
 
         return home_view(self.sheet, self.layout)
-
-    def fits(
-        self,
-        scene: Scene,
-        size: tuple[int, int],
-        look: Look,
-        docked: Docked,
-        *,
-        held: bool = False,
-        sheet: Box | None = None,
-        also: tuple[complex, ...] = (),
-    ) -> bool:
-        """Return whether it is the picture of these."""
-        return self._made_for[0] is scene and self._made_for[1:] == (size, look, docked, held, sheet, also)
 
     def poses(
         self, phase: float, speed: float | None = None, acceleration: float = 0.0
@@ -221,13 +183,15 @@ class Picture:
             return
         build = overlay.build
         if build and build.draft:
-            from linkanim.picture.build_sheet import drafted
+            from linkanim.picture.build_sheet import drafted, paper
 
-            yield self._paper(build.photo)
+            yield paper(self.drawing.setting, build.photo)
             yield from drafted(build, build.draft, self.drawing.setting)
             return
         if self.sheet and path is None:
-            yield self._paper(build.photo if build else None)
+            from linkanim.picture.build_sheet import paper
+
+            yield paper(self.drawing.setting, build.photo if build else None)
         yield from self._behind_at(pose.input_speed, path)
         if overlay.lane:
             yield self._lane(overlay.lane)
@@ -357,21 +321,13 @@ class Picture:
     @property
     def _overruns(self) -> bool:
         """Whether the linkage may run beyond its stage."""
-        return self.look.framed or self.view != self.composition.view_of(self.figure)
+        return self.look.framed or self.held or self.view != self.composition.view
 
     @cached_property
     def _sheet(self) -> Group:
         from linkanim.picture.build_sheet import sheet
 
-        return sheet(self.drawing.setting)
-
-    def _paper(self, photo: Photo | None) -> Group:
-        """Return the sheet on which the linkage is built; the same object while nothing of it changes."""
-        if self._papered is None or self._papered[0] != photo:
-            from linkanim.picture.build_sheet import paper
-
-            self._papered = photo, paper(self.drawing.setting, photo)
-        return self._papered[1]
+        return sheet(self.view, self.layout, self.theme)
 
     def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
         """Return what stands still behind all that moves; the chart and the key depend on the speed."""

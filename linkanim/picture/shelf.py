@@ -22,7 +22,7 @@ from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
 from linkanim.picture.slider import draw_dial
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text import Type, hyphened
+from linkanim.picture.text import Type, hyphened, letters
 from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load, titles
@@ -205,7 +205,7 @@ class ShelfPrinter:
         self._live: dict[int, Live] = {}
         self._unread: set[int] = set()
         self._read: tuple[int, Scene] | None = None
-        self._type = Type()
+        self._type = letters()
 
     def close(self) -> None:
         """Forget what was drawn for a shelf that is no longer open."""
@@ -451,7 +451,7 @@ class RowPrinter:
         if row is None or layout.row is None:
             self._live.clear()
             return
-        self._type = self._type or Type()
+        self._type = self._type or letters()
         board, cells = Board(layout, self._type, theme_of(row.theme)), row_cells(layout, len(row.entries))
         if row.dial and layout.dial:
             draw_dial(surface, board, layout.dial, row.dial)

@@ -12,7 +12,7 @@ import unicodedata
 import warnings
 from bisect import bisect_left
 from collections.abc import Hashable, Iterable, Iterator
-from functools import cached_property
+from functools import cache, cached_property
 from io import BytesIO
 from itertools import groupby, pairwise, product
 from math import ceil, prod
@@ -296,7 +296,7 @@ class Inked(NamedTuple):
 
 
 class Type:
-    """The face's sizes and the glyphs that one painter has used; bounded by the face's alphabet."""
+    """The face's sizes and the glyphs that were used so far; bounded by the face's alphabet."""
 
     def __init__(self) -> None:
         self._fonts = Fonts()
@@ -540,6 +540,12 @@ def _joined(run: list[Inked]) -> Inked:
 
 def _left(x: float, width: int, anchor: Anchor) -> int:
     return round(x) - {"left": 0, "centre": width // 2, "right": width}[anchor]
+
+
+@cache
+def letters() -> Type:
+    """Return the letters that all pictures of this process share: they only save time."""
+    return Type()
 
 
 # Words that move: set once in a halo, and put down to a quarter of a pixel, so that they glide.

@@ -19,7 +19,7 @@ from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import ToolBar
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.shapes import box, directions, disc, lined, rod, segments, slotted, stroke
-from linkanim.picture.text import Type
+from linkanim.picture.text import letters
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
@@ -39,7 +39,7 @@ class ToolPrinter:
 
     def __init__(self) -> None:
         self._kept: tuple[object, pygame.Surface, tuple[int, int]] | None = None
-        self._type = Type()
+        self._type = letters()
 
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None) -> None:
         """Draw a bar over the picture, and the name of the tool under the mouse."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 from linkanim.frozen import NamedTuple, frozen
 
 
@@ -139,6 +142,23 @@ def moved(view: View, about: tuple[float, float], *, zoom: float, pan: tuple[flo
     """Return the view enlarged `zoom` times about a pixel, then shifted right and down in pixels."""
     x = about[0] + (view.x - about[0]) * zoom + pan[0]
     return View(view.scale * zoom, x, about[1] + (view.y - about[1]) * zoom + pan[1])
+
+
+def on_the_way(values: Sequence[float], rests: Sequence[float]) -> float:
+    """Return where a value is that went from each of these to the next, with the `rests` of the ways ahead.
+
+    The last value is the goal. Later changes have greater rests, so the result is between the values.
+    """
+    changes = zip(pairwise(values), rests, strict=True)
+    return values[-1] + sum(rest * (one - other) for (one, other), rest in changes)
+
+
+def view_on_the_way(views: Sequence[View], rests: Sequence[float]) -> View:
+    """Return the view on the way through several; each point moves straight from one to the next."""
+    scale, x, y = (
+        on_the_way(parts, rests) for parts in zip(*((one.scale, one.x, one.y) for one in views), strict=True)
+    )
+    return View(scale, x, y)
 
 
 def eased(share: float) -> float:

@@ -21,6 +21,7 @@ from linkanim.player import building, edits, making, rules, taking
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop
+from linkanim.player.framing import departed
 from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.modes import MODES
 from linkanim.player.naming import Naming
@@ -28,8 +29,8 @@ from linkanim.player.sketching import left
 from linkanim.player.state import (
     ATTRACT_AFTER,
     CHIP_FRAMES,
-    FADE_FRAMES,
     FLASH_FRAMES,
+    MOVE_FRAMES,
     SHUTTER_FRAMES,
     STIR_FRAMES,
     Editing,
@@ -493,7 +494,7 @@ _SHEETS = frozenset({"build", "sheet", "draft", "photo", "stage"})
 """Actions that open a sheet, or show a step of a lesson, even out of a game."""
 _NOT_BY_HAND = frozenset({"note", "hint", "stir"})
 """Actions that no user asks for, and the one that only brings the bar of commands."""
-_LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
+_LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": MOVE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the frame in the state's field something is visible."""
 
 
@@ -502,10 +503,10 @@ def advance(state: State, actions: Iterable[Action] = ()) -> State:
 
     KeyError for an action that is not in `actions.ACTIONS`.
     """
-    state = aged(state)
+    before, state = state, aged(state)
     for action in actions:
         state = carried(state, action)
-    return settled(state)
+    return settled(before, state)
 
 
 def aged(state: State) -> State:
@@ -555,15 +556,17 @@ def carried(state: State, action: Action) -> State:
     return _tried(state, action, handled)
 
 
-def settled(state: State) -> State:
-    """Return the state at the end of a frame: in a kiosk a mechanism left alone gives way to the title.
+def settled(before: State, state: State) -> State:
+    """Return the state at the end of a frame, with what it leaves of that of the frame before.
 
-    A state that is paused, recorded, or has something open stays as it is.
+    In a kiosk a mechanism left alone gives way to the title, unless it is paused, recorded, or has something
+    open.
     """
     alone = state.frame - state.touched >= ATTRACT_AFTER
-    if not (state.kiosk and state.games and alone and state.is_bare):
-        return state
-    return replace(carried(state, Action("play", "title")), touched=state.touched, by_itself=True)
+    if state.kiosk and state.games and alone and state.is_bare:
+        titled = carried(state, Action("play", "title"))
+        state = replace(titled, touched=state.touched, by_itself=True)
+    return departed(before, state)
 
 
 def _in_a_game(state: State, game: Game, action: Action) -> State:

@@ -1,152 +1,97 @@
-"""Fit a picture to a state, and go from one picture to the next.
-
-The view moves smoothly to another one; another picture fades in.
-"""
+"""Framed a picture to a state, and go from one picture to the next: views and lists move, pictures fade."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from itertools import pairwise
 
 import pygame
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NOTHING_OVER, Overlay
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.view import View, eased
-from linkanim.player.state import FADE_FRAMES, SWING_FRAMES, Changeover, State
+from linkanim.picture.view import Box, on_the_way, view_on_the_way
+from linkanim.player.shown import lasting
+from linkanim.player.state import MOVE_FRAMES, Departure, Sketch, State
+from linkanim.scenes.scene import Scene
 
-# The pictures of states: each fits what is shown, and the view moves smoothly from one to the next.
-#
-# So the eye can follow what makes room for what. Window and recordings share this.
+# What a state's picture is fitted to. Where that changes, the state that is left is kept for a while.
 
-APPROACH_FRAMES = 14
+_PICTURES = 4
+"""The pictures that are kept: of a state, and of those that were left just before."""
 
 
-@frozen
-class Approach:
-    """The view that is being left for another one, and the frame at which the change began.
+class Framed(NamedTuple):
+    """What the places in a picture depend on, besides its size.
 
-    `edge` is that of the picture being left: charts come in from there.
+    While a hand changes a scene, all stands where it does for the scene `placed`.
     """
 
-    left: View
-    since: int
-    edge: tuple[float, float] = (0.0, 0.0)
-    frames: int = APPROACH_FRAMES
-
-    def over(self, frame: int) -> bool:
-        """Return whether the new view is reached."""
-        return frame >= self.since + self.frames
-
-    def view(self, goal: View, frame: int) -> View:
-        """Return this frame's view, between the old one and `goal`."""
-        return between(self.left, goal, self._share(frame))
-
-    def aside(self, edge: tuple[float, float], frame: int) -> tuple[float, float]:
-        """Return how far charts are from their slots, whose linkage ends at an `edge`: right, and down."""
-        rest = 1.0 - eased(self._share(frame))
-        right, down = (max(before - now, 0.0) * rest for before, now in zip(self.edge, edge, strict=True))
-        return right, down
-
-    def _share(self, frame: int) -> float:
-        """Return the share of the way that is over, in time."""
-        return (frame - self.since + 1) / (self.frames + 1)
-
-
-def between(one: View, other: View, share: float) -> View:
-    """Return the view at a share of the way between two, slow at both ends; points move straight."""
-    part = eased(share)
-    scale, x, y = (
-        begin + (end - begin) * part
-        for begin, end in ((one.scale, other.scale), (one.x, other.x), (one.y, other.y))
-    )
-    return View(scale, x, y)
-
-
-class Framing:
-    """Makes the picture of each state that comes, from the last one; a list in a window takes its room.
-
-    Only in a `window` are there tools beside a list.
-    """
-
-    def __init__(self, *, window: bool = False) -> None:
-        self._window = window
-        self._fitting: Picture | None = None
-        self._passing: Picture | None = None
-        self._approach: Approach | None = None
+    scene: Scene
+    look: Look
+    docked: Docked
+    placed: Scene | None
+    sheet: Box | None
+    also: tuple[complex, ...]
 
     @property
-    def last(self) -> Picture:
-        """The picture that was returned last; there must be one."""
-        picture = self._passing or self._fitting
-        assert picture is not None
-        return picture
-
-    def fitting(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture that fits the state; begin to move to it where its view is another one."""
-        before, sketch, look = self._fitting, state.sketch, self._look(state)
-        held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
-        docked, sheet = self._docked(state), state.building.home if state.building else state.home
-        stays = before is not None and before.size == size
-        home, also = None, _included(state)
-        if sketch and before and stays and (sketch.is_blank or held):
-            home, also = before.fitted, before.also
-        if before and before.fits(state.shown, size, look, docked, held=held, sheet=sheet, also=also):
-            return before
-        made = Picture(
-            state.shown, size, look, before, held=held, docked=docked, sheet=sheet, also=also, home=home
-        )
-        if before and before.sheet != made.sheet:
-            self._approach = None
-        elif before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
-            left = self._passing or before
-            frames = SWING_FRAMES if isinstance(state.glide, Changeover) else APPROACH_FRAMES
-            self._approach = Approach(left.view, state.frame, left.edge, frames)
-        elif before and not _is_framed_alike(before, made):
-            self._approach = None
-        self._fitting = made
-        return made
-
-    def _docked(self, state: State) -> Docked:
-        """Return what has room of its own."""
-        has_tools = self._window and state.top is not None and state.top.has_tools
-        row = state.sketch is not None and bool(state.sketch.answers)
-        head = state.constructed > 0 or any(one.has_head for one in state.modes)
-        return Docked(
-            2 if has_tools and state.listed else int(state.listed),
-            row,
-            self._window,
-            head and not state.listed,
-        )
-
-    def _look(self, state: State) -> Look:
-        """Return the look of a state."""
-        for mode in state.modes:
-            state = replace(state, look=mode.look(state.look))
-        drawn = state.constructed
-        look = replace(state.look, hud=False) if drawn else state.look
-        return replace(look, centres=0) if state.constructed else look
-
-    def at(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture for this frame: while the view moves, one on the way to the fitting picture."""
-        goal, self._passing = self.fitting(state, size), None
-        if self._approach is None or state.reduced_motion or self._approach.over(state.frame):
-            self._approach = None
-            return goal
-        view, aside = (
-            self._approach.view(goal.view, state.frame),
-            self._approach.aside(goal.edge, state.frame),
-        )
-        self._passing = goal.on_its_way(view, aside)
-        return self._passing
+    def of_view(self) -> tuple[object, ...]:
+        """What its view before zoom and pan depends on."""
+        scene = self.placed or self.scene.towards or self.scene
+        look = replace(self.look, theme="light", zoom=1.0, pan=(0.0, 0.0))
+        return None if self.sheet else scene, look, self.docked, self.sheet, self.also
 
 
-def _included(state: State) -> tuple[complex, ...]:
+def framed(state: State, *, window: bool = True) -> Framed:
+    """Return what the picture of a state is fitted to; only in a `window` are there tools beside a list."""
+    sketch, sheet = state.sketch, state.building
+    kept = _kept(sketch) if sketch else None
+    tools = window and state.top is not None and state.top.has_tools and state.listed
+    head = state.constructed > 0 or any(one.has_head for one in state.modes)
+    row = kept is not None and bool(kept.answers)
+    docked = Docked(2 if tools else int(state.listed), row, window, head and not state.listed)
+    return Framed(
+        state.shown,
+        _look(state),
+        docked,
+        _placed(state),
+        sheet.home if sheet else state.home,
+        _included(state, kept),
+    )
+
+
+def _kept(sketch: Sketch) -> Sketch | None:
+    """Return the sketch to which the view is fitted: while something is drawn or held, the one before."""
+    found = sketch.earlier if sketch.held is not None else sketch.at_rest
+    while found is not None and found.at_rest.is_blank:
+        found = found.earlier
+    return found
+
+
+def _placed(state: State) -> Scene | None:
+    """Return the scene as it was when the hand took hold of something of it; None where it holds nothing."""
+    if state.held:
+        return state.held.scene
+    if state.sketch and state.sketch.held is not None:
+        return state.sketch.base
+    sheet = state.building
+    return sheet.lasting.made.scene if sheet and sheet.grip else None
+
+
+def _look(state: State) -> Look:
+    """Return the look of a state."""
+    look = state.look
+    for mode in state.modes:
+        look = mode.look(look)
+    return replace(look, hud=False, centres=0) if state.constructed else look
+
+
+def _included(state: State, sketch: Sketch | None) -> tuple[complex, ...]:
     """Return places of the scene that the picture includes: what was drawn, what a construction has found."""
-    sketch = state.sketch
-    if sketch and not sketch.is_blank:
+    if sketch:
         x, y = sketch.points.real, sketch.points.imag
         return complex(float(x.min()), float(y.min())), complex(float(x.max()), float(y.max()))
     if state.constructed and state.clock.paused:
@@ -156,50 +101,101 @@ def _included(state: State) -> tuple[complex, ...]:
     return state.also
 
 
-def _has_moved(one: Picture, other: Picture) -> bool:
-    """Return whether two pictures of one linkage, of either closure, in one window are fitted differently."""
-    return _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
+def departed(before: State, state: State) -> State:
+    """Return the state with what it leaves of the state of the frame before, and of earlier ones.
+
+    Another linkage, zoom or sheet is there at once.
+    """
+    found = tuple(one for one in state.departures if not one.is_over(state.frame))
+    fades = state.faded == state.frame
+    was, now = framed(before).of_view, framed(state).of_view
+    if not _is_seen_as_one(before, state):
+        found = tuple(one for one in found if one.fades)
+    elif was != now or before.listed != state.listed:
+        glides = state.glide if state.glide and state.glide.since == state.frame else None
+        frames = glides.frames if glides else MOVE_FRAMES
+        found = (*found, Departure(_bare(before), since=state.frame, frames=frames))
+    if fades:
+        found = tuple(one for one in found if not one.fades)
+        found = (*found, Departure(_bare(before, _moves(before)), True, since=state.frame))
+    found = () if state.reduced_motion else found
+    return state if found == state.departures else replace(state, departures=found)
 
 
-def _is_framed_alike(one: Picture, other: Picture) -> bool:
-    """Return whether two pictures show one linkage in one window at the same zoom and pan."""
-    looks = ((picture.look.zoom, picture.look.pan, picture.size) for picture in (one, other))
-    return _are_one(one, other) and len(set(looks)) == 1
+def _bare(state: State, moves: Iterable[Departure] = ()) -> State:
+    """Return a state without those that it leaves itself, but some."""
+    return replace(state, departures=tuple(moves), effects=())
 
 
-def _are_one(one: Picture, other: Picture) -> bool:
-    """Return whether both pictures are of one scene, or of a scene and the one exchanged for it."""
-    scenes = (one.scene, other.scene)
-    named = one.scene.name == other.scene.name and not any(scene.towards for scene in scenes)
-    return one.scene is other.scene or (named and one.scene.length_unit == other.scene.length_unit)
+def _is_seen_as_one(before: State, state: State) -> bool:
+    """Return whether the eye follows one linkage, of either closure, or one sketch, at one zoom and pan."""
+    one, other = before.look, state.look
+    if (one.zoom, one.pan, before.home) != (other.zoom, other.pan, state.home):
+        return False
+    if (before.building is None) != (state.building is None) or (state.sketch and not before.sketch):
+        return False
+    named = before.scene.name == state.scene.name
+    same = before.scene is state.scene or (
+        named and before.displayed.length_unit == state.displayed.length_unit
+    )
+    return same or state.sketch is not None
 
 
-# A list comes in from the window's edge, and goes out there.
+class Framing:
+    """Makes the pictures of states, which depend on these and the size alone, and keeps the last few."""
 
-_DRAWER_FRAMES = 9
+    def __init__(self, *, window: bool = False) -> None:
+        self._window = window
+        self._made: list[tuple[tuple[Framed, tuple[int, int]], Picture]] = []
+
+    def fitting(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture that fits the state, as it is when all has come to rest."""
+        fit = framed(state, window=self._window)
+        known = next((one for one in self._made if one[0] == (fit, size)), None)
+        if known is None:
+            scene, look, docked, placed, sheet, also = fit
+            picture = Picture(scene, size, look, placed=placed, docked=docked, sheet=sheet, also=also)
+            known = (fit, size), picture
+        others = [one for one in self._made if one is not known]
+        self._made = [*others[1 - _PICTURES :], known]
+        return known[1]
+
+    def at(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture of this frame: while the view moves, one on the way to the fitting picture."""
+        goal = self.fitting(state, size)
+        moves = _moves(state)
+        if not moves:
+            return goal
+        pictures = [*(self.fitting(one.left, size) for one in moves), goal]
+        rests = [1.0 - one.share(state.frame) for one in moves]
+        view = view_on_the_way([one.view for one in pictures], rests)
+        steps = zip(pairwise(one.edge for one in pictures), rests, strict=True)
+        ways = [(rest * max(x - x1, 0.0), rest * max(y - y1, 0.0)) for ((x, y), (x1, y1)), rest in steps]
+        aside = sum(right for right, _ in ways), sum(down for _, down in ways)
+        if view == goal.view and aside == (0.0, 0.0):
+            return goal
+        scene, look, docked, placed, sheet, also = framed(state, window=self._window)
+        return Picture(
+            scene, size, look, view=view, aside=aside, placed=placed, docked=docked, sheet=sheet, also=also
+        )
 
 
-class Drawer:
-    """Moves the list of dimensions, of quantities or of a game in and out."""
+def _moves(state: State) -> list[Departure]:
+    """Return the states from which views and lists move on."""
+    return [one for one in state.departures if not one.fades]
 
-    def __init__(self) -> None:
-        self._last, self._since, self._is_open = NOTHING_OVER, -_DRAWER_FRAMES, False
 
-    def at(self, over: Overlay, state: State) -> Overlay:
-        """Return the overlay to draw: a list that opens or shuts is in part beyond the edge."""
-        is_open = bool(over.panel or over.quantities or over.game)
-        if is_open != self._is_open:
-            self._is_open, self._since = is_open, state.frame
-        gone = state.frame - self._since + 1
-        if is_open:
-            self._last = over
-        if state.reduced_motion or gone >= _DRAWER_FRAMES:
-            return over
-        share = eased(gone / _DRAWER_FRAMES)
-        if is_open:
-            return replace(over, shut=1.0 - share)
-        last = self._last
-        return replace(over, panel=last.panel, quantities=last.quantities, game=last.game, shut=share)
+def drawn_in(over: Overlay, state: State) -> Overlay:
+    """Return the overlay to draw: a list that opens or shuts is in part beyond the window's edge."""
+    moves = _moves(state)
+    if not moves:
+        return over
+    listed = [float(one.listed) for one in (*(move.left for move in moves), state)]
+    open_ = on_the_way(listed, [1.0 - one.share(state.frame) for one in moves])
+    if state.listed or not any(listed):
+        return replace(over, shut=1.0 - open_) if state.listed else over
+    last = lasting(next(one.left for one in reversed(moves) if one.left.listed))
+    return replace(over, panel=last.panel, quantities=last.quantities, game=last.game, shut=1.0 - open_)
 
 
 # From one picture to the next: the old one fades while the new one is already there; the shutter's flash.
@@ -208,31 +204,15 @@ _WHITE = 0.7
 """The opacity of a screenshot's white flash at its brightest."""
 
 
-class Fade:
-    """Keeps the picture from before another mechanism or theme appeared, while it fades."""
+def fading(state: State) -> tuple[State, int] | None:
+    """Return the state whose picture fades, and its opacity, 0 to 255; None where none does."""
+    found = next((one for one in state.departures if one.fades), None)
+    return (found.left, round(255 * (1.0 - found.share(state.frame)))) if found else None
 
-    def __init__(self) -> None:
-        self._old: pygame.Surface | None = None
-        self._since: int | None = None
 
-    def strength(self, state: State, surface: pygame.Surface) -> int:
-        """Return the opacity (0 to 255) of the old picture; `surface` holds that picture at first."""
-        if state.faded is None or state.reduced_motion:
-            self._old = self._since = None
-            return 0
-        if state.faded != self._since:
-            self._old, self._since = surface.copy(), state.faded
-        if self._old is None or self._old.get_size() != surface.get_size():
-            return 0
-        return round(255 * (1.0 - eased((state.frame - state.faded + 1) / FADE_FRAMES)))
-
-    def draw(self, surface: pygame.Surface, strength: int, shutter: int) -> None:
-        """Draw the old picture over the new one, and the shutter's white, in eighths, over both."""
-        if self._old is not None and strength:
-            self._old.set_alpha(strength)
-            surface.blit(self._old, (0, 0))
-        if shutter:
-            white = pygame.Surface(surface.get_size())
-            white.fill((255, 255, 255))
-            white.set_alpha(round(255 * _WHITE * (shutter / 8) ** 2))
-            surface.blit(white, (0, 0))
+def flash(surface: pygame.Surface, eighths: int) -> None:
+    """Draw the shutter's white over a picture, in eighths."""
+    white = pygame.Surface(surface.get_size())
+    white.fill((255, 255, 255))
+    white.set_alpha(round(255 * _WHITE * (eighths / 8) ** 2))
+    surface.blit(white, (0, 0))

@@ -36,8 +36,9 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
-from linkanim.player.framing import Drawer, Fade, Framing
+from linkanim.player.framing import Framing, drawn_in, fading, flash
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
+from linkanim.player.shown import lasting
 from linkanim.player.state import State
 from linkanim.scenes.editing import handles
 
@@ -270,9 +271,11 @@ class Screen:
         self.state = state
         self._titled: str | None = None
         self._shelf = ShelfPrinter()
-        self._fade = Fade()
         self._printer = SurfacePrinter()
-        self._framing, self._drawer = Framing(window=True), Drawer()
+        self._framing = Framing(window=True)
+        self.last: Picture
+        """The picture that was painted last."""
+        self._faded: tuple[State, pygame.Surface] | None = None
         self.over = Overlay()
         self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
         self._pointer: object = None
@@ -287,14 +290,25 @@ class Screen:
         title = UNTITLED if on_sheet else state.scene.title
         self._name(f"{title}{' • edited' * (state.place in state.edited and not on_sheet)}")
         picture = self._framing.at(state, surface.get_size())
-        veiled = self._fade.strength(state, surface)
-        drawn = self._drawer.at(over, state)
-        shown = (picture, state.phase, state.clock.speed, drawn, veiled)
+        drawn, fades = drawn_in(over, state), fading(state)
+        shown = (picture, state.phase, state.clock.speed, drawn, fades)
         if shown != self._shown:
+            old = self._veil(*fades) if fades and fades[1] else None
+            self.last = picture
             self._paint(surface, picture, state, drawn)
-            self._fade.draw(surface, veiled, over.shutter)
+            if old:
+                surface.blit(old, (0, 0))
+            if over.shutter:
+                flash(surface, over.shutter)
             pygame.display.flip()
             self._shown = shown
+
+    def _veil(self, state: State, opacity: int) -> pygame.Surface:
+        """Return the picture of a state that fades, at its opacity."""
+        if self._faded is None or self._faded[0] is not state or self._faded[1].get_size() != self.size:
+            self._faded = state, self.picture(state, lasting(state))
+        self._faded[1].set_alpha(opacity)
+        return self._faded[1]
 
     def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:
@@ -306,11 +320,11 @@ class Screen:
             self._targets = self._printer.targets
             self._row.draw(surface, picture.layout, over.row)
             self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
-        self._bar.draw(surface, self._bar_layout(over), theme_of(state.look.theme), over.bar)
+        self._bar.draw(surface, self._bar_layout(over, picture), theme_of(state.look.theme), over.bar)
 
-    def _bar_layout(self, over: Overlay) -> Layout:
+    def _bar_layout(self, over: Overlay, picture: Picture | None = None) -> Layout:
         """Return the layout in which the bar of commands stands; the shelf fills the window."""
-        return layout(self.size, docked=Docked(bar=True)) if over.shelf else self._framing.last.layout
+        return layout(self.size, docked=Docked(bar=True)) if over.shelf else (picture or self.last).layout
 
     def _point(self, state: State) -> None:
         """Show the mouse's pointer as a pencil while the pencil is taken."""
@@ -332,9 +346,8 @@ class Screen:
 
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
-        surface, self.state = display_surface().copy(), state
-        shown = self._targets
-        self._paint(surface, self._framing.fitting(state, surface.get_size()), state, over)
+        surface, shown = display_surface().copy(), self._targets
+        self._paint(surface, self._framing.at(state, surface.get_size()), state, over)
         self._targets = shown
         return surface
 
@@ -348,7 +361,7 @@ class Screen:
 
         Beside a linkage it is the place of the linkage that is nearest: zoomed about that, it stays in sight.
         """
-        last, state = self._framing.last, self.state
+        last, state = self.last, self.state
         is_paper = any(one.is_paper for one in state.modes)
         if not is_paper:
             box, view = last.figure.box, last.view
@@ -358,7 +371,7 @@ class Screen:
 
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is, in pixels."""
-        return self._framing.last.crank_pin_px(self.state.displayed.pose(self.state.phase, 0))
+        return self.last.crank_pin_px(self.state.displayed.pose(self.state.phase, 0))
 
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
         """Return the joint under a pixel that can be dragged; None elsewhere.
@@ -390,7 +403,7 @@ class Screen:
     def answer_cells(self) -> tuple[Rect, ...]:
         """Return where the pictures of the answers are, in pixels."""
         count = len(self.state.sketch.answers) if self.state.sketch else 0
-        return row_cells(self._framing.last.layout, count)
+        return row_cells(self.last.layout, count)
 
     def answer_at(self, x: float, y: float) -> int | None:
         """Return the number of the answer whose picture is under a pixel; None elsewhere."""
@@ -398,29 +411,27 @@ class Screen:
 
     def on_dial(self, x: float, y: float) -> bool:
         """Return whether a pixel is on the dial above the answers."""
-        room, row = self._framing.last.layout.dial, self.over.row
+        room, row = self.last.layout.dial, self.over.row
         return bool(room and row and row.dial) and is_on_dial(room, x, y)  # type: ignore[arg-type]
 
     def dialled(self, x: float) -> float:
         """Return the share of the dial at a pixel's x."""
-        room = self._framing.last.layout.dial
+        room = self.last.layout.dial
         return dial_value(room, x) if room else 0.0
 
     @property
     def near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""
-        return NEAR * self.size[1] / self._framing.last.view.scale
+        return NEAR * self.size[1] / self.last.view.scale
 
     def slider_at(self, x: float, y: float) -> bool:
         """Return whether a pixel lies on the slider that is shown."""
-        return bool(self.over.slider and not self.over.shelf) and slider_rect(
-            self._framing.last.layout
-        ).holds(x, y)
+        return bool(self.over.slider and not self.over.shelf) and slider_rect(self.last.layout).holds(x, y)
 
     def slid(self, x: float) -> int:
         """Return the step of the slider that is nearest to a pixel's column."""
         shown = self.over.slider
-        return slider_step(self._framing.last.layout, shown, x) if shown else 0
+        return slider_step(self.last.layout, shown, x) if shown else 0
 
     def _target(self, kind: str, x: float, y: float) -> Target | None:
         """Return the topmost target of a kind at a pixel; None where there is none."""
@@ -448,7 +459,7 @@ class Screen:
 
     def sheet_row_at(self, x: float, y: float) -> Action | None:
         """Return the action of a click on a list of the sheet: another meaning or number; None off it."""
-        shown, last = self.over.build, self._framing.last
+        shown, last = self.over.build, self.last
         for rows, name in ((shown.offers, "offer"), (shown.panel, "number")) if shown else ():
             row = row_at(last.layout, last.view, rows, x, y) if rows else None
             if rows and row == rows.chosen and row in rows.options:
@@ -460,7 +471,7 @@ class Screen:
 
     def tool_at(self, x: float, y: float) -> int | None:
         """Return the number of the tool under a pixel, where there are tools; None elsewhere."""
-        return tool_at(self._framing.last.layout, x, y) if self.over.tool_bar else None
+        return tool_at(self.last.layout, x, y) if self.over.tool_bar else None
 
     def handed(
         self, x: float, y: float, part: float, *, on_grid: bool = False
@@ -491,8 +502,8 @@ class Screen:
 
     def _gridded(self, x: float, y: float) -> tuple[float, float]:
         """Return a place with each coordinate moved to the grid's line that is near, if one is."""
-        view = self._framing.last.view
-        step, near = self.grid_step, _PULLED * self._framing.last.layout.unit / view.scale
+        view = self.last.view
+        step, near = self.grid_step, _PULLED * self.last.layout.unit / view.scale
         lines = (round(at / step) * step for at in (x, y))
         x, y = (line if abs(line - at) <= near else at for at, line in zip((x, y), lines, strict=True))
         return x, y
@@ -500,20 +511,20 @@ class Screen:
     @property
     def grid_step(self) -> float:
         """The distance between lines of the sheet's grid, in its unit."""
-        return grid_step(self._framing.last.view, self._framing.last.layout)
+        return grid_step(self.last.view, self.last.layout)
 
     @property
     def sheet_step(self) -> float:
         """The usual step of a drawing: the least power of ten of its unit that is visible."""
-        return 10.0 ** ceil(log10(_VISIBLE / self._framing.last.view.scale))
+        return 10.0 ** ceil(log10(_VISIBLE / self.last.view.scale))
 
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""
-        return self._framing.last.view.to_world(x, y)
+        return self.last.view.to_world(x, y)
 
     def pixel(self, x: float, y: float) -> tuple[float, float]:
         """Return where a point of the scene is in the window."""
-        return self._framing.last.view.to_pixel(x, y)
+        return self.last.view.to_pixel(x, y)
 
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
@@ -535,7 +546,7 @@ class Screen:
 
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
-        reach = 1.6 * self._framing.last.layout.text_size
+        reach = 1.6 * self.last.layout.text_size
         away = {n: hypot(*self.away(spot.at, x, y)) for n, spot in enumerate(self.over.spots)}
         near = min(away, key=lambda n: away[n], default=None)
         if near is not None and away[near] <= reach:
@@ -545,7 +556,7 @@ class Screen:
 
     def on_trace(self, x: float, y: float, reach: float) -> tuple[str, float] | None:
         """Return the joint whose curve passes a pixel within a reach, and its phase there; None elsewhere."""
-        picture, at = self._framing.last, complex(*self.world(x, y))
+        picture, at = self.last, complex(*self.world(x, y))
         if not self.state.leads or not (picture.look.trace or picture.look.ink):
             return None
         scene, found = self.state.displayed, []
@@ -559,7 +570,7 @@ class Screen:
 
     def pointed(self, x: float, y: float, reach: float) -> Pointed | None:
         """Return the thing of the scene at a pixel, or an instant on its chart or a curve; else None."""
-        phase, place, picture = self.charted(x, y), self.world(x, y), self._framing.last
+        phase, place, picture = self.charted(x, y), self.world(x, y), self.last
         if phase is not None:
             return Pointed(place, instant=phase)
         label = picture.label_at(x, y) if self.state.mode in ("play", "paused") else None
@@ -574,12 +585,12 @@ class Screen:
 
     def chart_titled_at(self, x: float, y: float) -> str | None:
         """Return the token of the chart whose title is under a pixel; None elsewhere."""
-        return None if self.over.hides_chart else self._framing.last.chart_titled_at(x, y)
+        return None if self.over.hides_chart else self.last.chart_titled_at(x, y)
 
     def polygon_at(self, x: float, y: float) -> int | None:
         """Return the polygon under a pixel: 1 of velocities, 2 of accelerations; None elsewhere."""
-        return None if self.over.hides_chart else self._framing.last.polygon_at(x, y)
+        return None if self.over.hides_chart else self.last.polygon_at(x, y)
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None off it."""
-        return None if self.over.hides_chart else self._framing.last.chart_phase_at(x, y)
+        return None if self.over.hides_chart else self.last.chart_phase_at(x, y)

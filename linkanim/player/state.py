@@ -190,42 +190,61 @@ class Grasp:
         return min(max(rate, -_FASTEST), _FASTEST)
 
 
-# A glide: the scenes between an old one and a new one, so that the picture follows a changed length smoothly.
+# A change on its way: of the view and the lists, to another picture, to a changed length, to a closure.
 
-FRAMES = 16
+MOVE_FRAMES, SWING_FRAMES = 16, 36
+"""The frames that a change takes, and a swing to the other closure."""
 EVERY = 2
 """Frames for which each scene of a glide is shown; the next one is worked out in the last of them."""
 _TRIED = 90
 _FOLLOWED = ("length", "offset", "angle")
 
 
+@frozen(kw_only=True)
+class Change:
+    """A change that is seen on its way from frame `since` on, for so many frames."""
+
+    since: int
+    frames: int = MOVE_FRAMES
+
+    def share(self, frame: int) -> float:
+        """Return the share of the way that is over at a frame, slow at both ends."""
+        return eased((frame + 1 - self.since) / self.frames)
+
+    def is_over(self, frame: int) -> bool:
+        """Return whether nothing of it is seen any more at a frame."""
+        return frame + 1 - self.since > self.frames
+
+
 @frozen
-class Glide:
-    """Dimensions that change since frame `since`: (key, from, to), and the scene shown meanwhile.
+class Departure(Change):
+    """The state that is left: its view and its lists move on, or its picture fades."""
+
+    left: State
+    fades: bool = False
+
+
+@frozen
+class Glide(Change):
+    """Dimensions that change: (key, from, to), and the scene shown meanwhile.
 
     `coming` is the scene that is worked out for the next frame, if any.
     """
 
     scene: Scene
-    since: int
     changes: tuple[tuple[Key, float, float], ...]
     coming: Scene | None = None
 
 
-SWING_FRAMES = 36
-_IN_PLACE = 1e-9
-"""By how much a joint may move and stay in its place, in the scene's unit."""
-
-
-class Changeover(NamedTuple):
-    """The closure that the linkage leaves from frame `since` on, to swing over to the scene's own."""
+@frozen
+class Changeover(Change):
+    """The closure that the linkage leaves, to swing over to the scene's own."""
 
     left: Scene
-    since: int
 
-    def share(self, frame: int) -> float:
-        """Return the share of the way that is over, slow at both ends."""
-        return eased((frame + 1 - self.since) / SWING_FRAMES)
+
+_IN_PLACE = 1e-9
+"""By how much a joint may move and stay in its place, in the scene's unit."""
 
 
 def glide(before: Scene, after: Scene, frame: int, phase: float) -> Glide | Changeover | None:
@@ -241,12 +260,12 @@ def glide(before: Scene, after: Scene, frame: int, phase: float) -> Glide | Chan
         if item.unit == old[item.key].unit and item.value != old[item.key].value
     )
     if changes:
-        return Glide(before, frame, changes)
+        return Glide(before, changes, since=frame)
     places, others = before.pose(phase, 0).position, after.pose(phase, 0).position
     if places.keys() != others.keys():
         return None
     swings = any(dist(others[name], place) > _IN_PLACE for name, place in places.items())
-    return Changeover(before, frame) if swings else None
+    return Changeover(before, since=frame, frames=SWING_FRAMES) if swings else None
 
 
 def followed(begun: Glide | Changeover, after: Scene, frame: int) -> Glide | Changeover | None:
@@ -254,13 +273,11 @@ def followed(begun: Glide | Changeover, after: Scene, frame: int) -> Glide | Cha
 
     A scene on the way that cannot be assembled over its whole cycle is left out: the last one stays.
     """
+    if begun.is_over(frame) or isinstance(begun, Changeover):
+        return None if begun.is_over(frame) else begun
     gone = frame + 1 - begun.since
-    if isinstance(begun, Changeover):
-        return begun if gone <= SWING_FRAMES else None
-    if gone > FRAMES:
-        return None
-    if gone % EVERY == 0 and gone < FRAMES:
-        return replace(begun, coming=_on_the_way(begun, after, gone / FRAMES))
+    if gone % EVERY == 0 and gone < begun.frames:
+        return replace(begun, coming=_on_the_way(begun, after, gone / begun.frames))
     return replace(begun, scene=begun.coming, coming=None) if begun.coming else begun
 
 
@@ -740,7 +757,6 @@ TOAST_FRAMES = 3 * FRAMES_PER_SECOND
 CHIP_FRAMES = 66
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 FLASH_FRAMES = FRAMES_PER_SECOND
-FADE_FRAMES = 14
 SHUTTER_FRAMES = 12
 STIR_FRAMES = 3 * FRAMES_PER_SECOND
 """The frames for which the bar of commands shows after the mouse has moved."""
@@ -831,9 +847,10 @@ class State:
     construction is drawn, and how many steps of it. `kept` has the edited scenes of other places.
 
     `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
-    `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
-    travel, that is being typed while paused. `modes` are open one on another. `beneath` is the state under
-    a running game, and `games` reads a game from its words. Recordings are made as `take` says.
+    `shot` that of a screenshot, each as long as it can be seen. `departures` are the states that were
+    left for this one, as long as their views, lists or pictures are seen. `place_typed` is the input's
+    angle, or travel, that is being typed while paused. `modes` are open one on another. `beneath` is the
+    state under a running game, and `games` reads a game from its words. Recordings are made as `take` says.
     `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input. `home` is the
     part of the plane that a game keeps visible, if not the fitted scene, `also` are places that it keeps in
     sight beside that. With `reduced_motion` the picture changes at once, without fades, glides and moving
@@ -875,6 +892,7 @@ class State:
     place_typed: str = ""
     toast: Toast | None = None
     chip: Toast | None = None
+    departures: tuple[Departure, ...] = ()
     faded: int | None = None
     shot: int | None = None
     recording: Take | None = None
@@ -1133,7 +1151,8 @@ def recovered(state: State, good: State, error: Exception) -> State:
     phase, it stands still at the last good phase.
     """
     if state.glide:
-        return replace(state, glide=None)
+        return replace(state, glide=None, departures=())
     clock = good.clock.go(state.frame, good.phase, paused=state.scene is good.scene or good.clock.paused)
-    back = replace(good, frame=state.frame, clock=clock, glide=None, effects=(), recording=None)
+    back = replace(good, frame=state.frame, clock=clock, glide=None, departures=())
+    back = replace(back, effects=(), recording=None)
     return with_toast(back, f"the solver failed there ({named(error)}); the last good linkage is back")

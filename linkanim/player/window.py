@@ -170,11 +170,12 @@ class Window:
 
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; the meaning of each key is looked up once earlier keys are carried out."""
-        self.state, done = aged(self._tape.rewound(self.state) if self._tape else self.state), []
+        before, done = self._tape.rewound(self.state) if self._tape else self.state, list[Action]()
+        self.state = aged(before)
         for action in self._requested(events):
             self.state = carried(self.state, action)
             done.append(action)
-        self.state = settled(self.state)
+        self.state = settled(before, self.state)
         if self._taping:
             self._taping.note(self.state.frame, tuple(done))
         for effect in self.state.effects:

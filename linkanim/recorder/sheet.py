@@ -11,7 +11,7 @@ from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view, png_bytes
 from linkanim.picture.stills import still_phase
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text import Type
+from linkanim.picture.text import letters
 from linkanim.picture.theme import theme_of
 from linkanim.recorder.encode import Frame
 from linkanim.recorder.plan import Clip, make_plan
@@ -40,7 +40,7 @@ class SheetFrames:
         self.colours = theme_colours(look)
         self._theme, self._frames = theme_of(look.theme), frames
         self._tiles = [(scene, Picture(scene, PICTURE, look)) for scene in scenes]
-        self._printer, self._type = SurfacePrinter(), Type()
+        self._printer, self._type = SurfacePrinter(), letters()
         self._surface, self._tile = offscreen(self.size), offscreen(PICTURE)
 
     def draw(self, frame: int) -> Frame:

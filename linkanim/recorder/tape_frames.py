@@ -41,9 +41,9 @@ _LONGER = 1280
 
 
 class TapeFrames:
-    """Pictures of what a tape does. In order each takes one step of the tape; going back replays it."""
+    """Pictures of what a tape does: each is drawn from its state alone, to which the tape's actions lead."""
 
-    independent = False
+    independent = True
 
     def __init__(self, tape: Tape, fps: float, size: tuple[int, int], *, photo: bool = False) -> None:
         self.size = size
@@ -69,11 +69,9 @@ class TapeFrames:
 
     def _at(self, frame: int) -> tuple[State, float]:
         if frame < self._next or not self._next:
-            self._ahead, self._next, self._framing = self._tape.pictures(self._fps), 0, Framing()
+            self._ahead, self._next = self._tape.pictures(self._fps), 0
         skipped, self._next = frame - self._next, frame + 1
-        for state, _ in islice(self._ahead, skipped):
-            self._framing.at(state, self.size)  # the view depends on what it has been through
-        return next(self._ahead)
+        return next(islice(self._ahead, skipped, None))
 
 
 def _lasting(over: Overlay, *, photo: bool = False) -> Overlay:

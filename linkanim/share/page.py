@@ -33,7 +33,7 @@ from linkanim.picture.items import Caption
 from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import quantity, speed_words, unbounded_places
-from linkanim.picture.text import Type
+from linkanim.picture.text import letters
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
@@ -124,7 +124,7 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
     token, speed = shown
     of = quantity(figure.scene, token)
     text, small = _TEXT
-    pens = (Pen(Type(), theme, small, text, _LINE) for theme in themes)
+    pens = (Pen(letters(), theme, small, text, _LINE) for theme in themes)
     one, other = (ChartPanel(figure, of, Rect(0, 0, *CHART), pen, speed) for pen in pens)
     known = figure.scene.quantities
     laws = [law_of(figure.scene, known[".".join(filter(None, (of.token, name)))]) for name in of.columns]
@@ -256,7 +256,7 @@ def _drawn(shared: Shared, scene: Scene, size: tuple[int, int]) -> tuple[Picture
     look = Look(names=shared.names, hud=False)
     light, dark = (replace(look, theme=name) for name in shared.themes)
     picture = Picture(scene, size, light, apart=True)
-    return picture, Picture(scene, size, dark, picture, apart=True)
+    return picture, Picture(scene, size, dark, apart=True)
 
 
 def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Picture, Picture]]) -> str:

@@ -14,7 +14,7 @@ from linkanim.picture.items import Caption, Halo, Item, grouped
 from linkanim.picture.layered import LayerView, layer_colour, lifted, room_of
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import disc, stroke
-from linkanim.picture.text import Type, subscripted
+from linkanim.picture.text import letters, subscripted
 from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.workshop.made import MadeLinkage, MadePin
@@ -153,7 +153,7 @@ class Drawn:
 
         A place is the middle of a name's upper edge.
         """
-        room, type_ = Rect(0, 0, *self.size), Type()
+        room, type_ = Rect(0, 0, *self.size), letters()
         wanted = list(wanted)
         edges = np.full((4, len(taken) + len(wanted)), np.inf)
         for n, spot in enumerate(taken):

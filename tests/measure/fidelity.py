@@ -31,7 +31,7 @@ def frame_decibels(scene: Scene, phases: Sequence[float] = PHASES) -> float:
     """Return the worst PSNR of frames against the mean of 64 samples a pixel of the same drawing, in dB."""
     small = Picture(scene, SIZE, LOOK)
     home = View(_FINER * small.view.scale, _FINER * small.view.x, _FINER * small.view.y)
-    large = Picture(scene, (_FINER * SIZE[0], _FINER * SIZE[1]), LOOK, home=home)
+    large = Picture(scene, (_FINER * SIZE[0], _FINER * SIZE[1]), LOOK, view=home)
     poses = [scene.pose(phase) for phase in phases]
     return min(psnr(_painted(small, pose), averaged(_painted(large, pose), _FINER)) for pose in poses)
 

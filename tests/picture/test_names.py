@@ -206,7 +206,7 @@ def test_while_the_hand_holds_a_joint_names_keep_their_places_and_lengths_are_to
     scene, size, look = load("crank-rocker"), (1280, 720), Look(names=2)
     longer = with_dimensions(scene, {("four-bar", "rocker"): 85.0})
     before = Picture(scene, size, look)
-    held, free = (Picture(longer, size, look, before, held=held) for held in (True, False))
+    held, free = (Picture(longer, size, look, placed=placed) for placed in (scene, None))
     anchors = [[label.anchor for label in one.names.labels] for one in (before, held, free)]
     assert anchors[0] == anchors[1] != anchors[2]
     assert held.view == before.view != free.view

@@ -252,7 +252,7 @@ def _changed(one: pygame.Surface, other: pygame.Surface) -> tuple[np.ndarray, ..
 def test_a_theme_a_trace_and_a_zoom_keep_the_names_anchors(change: dict[str, object]) -> None:
     scene, look = load("press"), Look(names=1)
     first = Picture(scene, (640, 360), look)
-    other = Picture(scene, (640, 360), replace(look, **change), first)  # type: ignore[arg-type]
+    other = Picture(scene, (640, 360), replace(look, **change))  # type: ignore[arg-type]
     if "trace" in change:  # it may be covered, so that places may be others
         assert {label.of for label in other.names.labels} == {label.of for label in first.names.labels}
     else:

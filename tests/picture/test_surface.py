@@ -111,35 +111,31 @@ def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str
 @pytest.mark.parametrize("size", [(640, 360), (320, 180)])
 def test_a_painter_that_takes_over_paints_as_one_that_begins(look: Look, size: tuple[int, int]) -> None:
     scene, overlay = load("press"), Overlay(help=(("look", (("H", "help"),)),), toast="told")
-    before = Picture(load("press"), (640, 360), FULL)
-    SurfacePrinter().paint(offscreen((640, 360)), before, scene.pose(0.5), overlay)
-    pictures = []
-    for painter in (Picture(scene, size, look), Picture(scene, size, look, before=before)):
+    printer, pictures = SurfacePrinter(), []
+    printer.paint(offscreen((640, 360)), Picture(scene, (640, 360), FULL), scene.pose(0.5), overlay)
+    for one in (SurfacePrinter(), printer):
         surface = offscreen(size)
-        SurfacePrinter().paint(surface, painter, scene.pose(1.0), overlay)
+        one.paint(surface, Picture(scene, size, look), scene.pose(1.0), overlay)
         pictures.append(_bytes(surface))
     assert pictures[0] == pictures[1]
 
 
 def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.MonkeyPatch) -> None:
     scene, surface = load("press"), offscreen((640, 360))
-    before = Picture(scene, (640, 360), FULL)
-    SurfacePrinter().paint(surface, before, scene.pose(0.5), Overlay(toast="told"))
+    SurfacePrinter().paint(surface, Picture(scene, (640, 360), FULL), scene.pose(0.5), Overlay(toast="told"))
 
     def refused(*_: object) -> None:
         raise AssertionError("a glyph is rendered again")
 
     monkeypatch.setattr(Fonts, "render", refused)
-    SurfacePrinter().paint(
-        surface, Picture(scene, (640, 360), FULL, before=before), scene.pose(0.5), Overlay(toast="told")
-    )
+    SurfacePrinter().paint(surface, Picture(scene, (640, 360), FULL), scene.pose(0.5), Overlay(toast="told"))
 
 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"pan": (0.1, 0.2), "zoom": 2.0}])
 def test_another_theme_or_view_composes_nothing_anew(change: dict[str, Any]) -> None:
     scene, look = load("press"), Look(names=2)
     before = Picture(scene, (640, 360), look)
-    after = Picture(scene, (640, 360), replace(look, **change), before=before)
+    after = Picture(scene, (640, 360), replace(look, **change))
     assert after.composition is before.composition
     assert (after.view != before.view) == ("zoom" in change)
 
@@ -147,11 +143,14 @@ def test_another_theme_or_view_composes_nothing_anew(change: dict[str, Any]) -> 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"vectors": frozenset("va")}, {"chart": "3.angle"}])
 def test_a_hud_follows_its_theme_and_its_place(change: dict[str, Any]) -> None:
     scene, look = load("press"), replace(Look(), **change)
-    before = Picture(scene, (640, 360), Look())
-    taken, new = (Picture(scene, (640, 360), look, before=first)._hud for first in (before, None))
-    assert taken is not None
-    assert new is not None
-    assert (taken.place, taken.block, taken.theme) == (new.place, new.block, new.theme)
+    picture = Picture(scene, (640, 360), look)
+    found = picture._hud
+    assert found is not None
+    assert (found.place, found.block, found.theme) == (
+        picture.layout.hud,
+        picture.composition.block,
+        picture.theme,
+    )
 
 
 def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
@@ -262,15 +261,12 @@ def test_the_ghost_is_the_other_closure_at_the_same_phase(gone: bool) -> None:
 
 
 @pytest.mark.parametrize("crank", [20.0, 45.0])
-def test_a_scene_on_the_way_is_as_large_as_the_one_it_becomes_and_in_its_place(crank: float) -> None:
+def test_a_scene_on_the_way_is_seen_in_the_view_of_the_one_it_becomes(crank: float) -> None:
     scene = load("crank-rocker")
-    theirs = Picture(scene, SMALL, BARE)
-    ours = Picture(passing(scene, {("four-bar", "crank"): crank}), SMALL, BARE, theirs)
-    shown, whole = ours.figure.box, theirs.figure.box
-    assert ours.view.to_pixel(*shown.middle) == pytest.approx(theirs.view.to_pixel(*whole.middle))
-    wide = ours.view.scale * (shown.right - shown.left) / (whole.right - whole.left)
-    high = ours.view.scale * (shown.high - shown.low) / (whole.high - whole.low)
-    assert max(wide, high) == pytest.approx(theirs.view.scale)
+    shown = passing(scene, {("four-bar", "crank"): crank})
+    picture = Picture(shown, SMALL, BARE)
+    assert picture.view == Picture(scene, SMALL, BARE).view
+    assert picture.figure.scene is shown
 
 
 @pytest.mark.parametrize(

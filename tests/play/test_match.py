@@ -262,7 +262,7 @@ def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
 
 
 def test_it_is_played_by_the_mouse(player: Player) -> None:
-    screen, view = player.window.screen, player.window.screen._framing.last.view
+    screen, view = player.window.screen, player.window.screen.last.view
     at = screen.pixel(*player.state.scene.pose(player.state.phase, 0).position["P"])
     player.drag(at, (at[0] + 20, at[1] - 10), (at[0] + 40, at[1] - 30))
     after = game(player.state)
@@ -270,7 +270,7 @@ def test_it_is_played_by_the_mouse(player: Player) -> None:
     x, y = screen.world(round(at[0] + 40), round(at[1] - 30))
     assert complex(round(x), round(y)) == after.joints.P
     # the curve stays where it is under the hand
-    assert player.window.screen._framing.last.view == view
+    assert player.window.screen.last.view == view
     # a click beside the joints is no key: it stands still
     player.mouse(pygame.MOUSEBUTTONDOWN, (500, 20), button=1)
     player.mouse(pygame.MOUSEBUTTONUP, (500, 20), button=1)

@@ -344,7 +344,7 @@ class Storm:
 
 def _spots(window: Window) -> list[tuple[int, int]]:
     """Return a pixel of each thing in sight that can be pressed: buttons, rows, answers, a slider, a dial."""
-    shown, layout = window.screen, window.screen._framing.last.layout
+    shown, layout = window.screen, window.screen.last.layout
     buttons = shown.over.bar.buttons if shown.over.bar else ()
     cells = [*bar_cells(shown._bar_layout(shown.over), buttons), *shown.answer_cells(), layout.dial]
     middles = [cell.middle for cell in cells if cell]

@@ -14,9 +14,9 @@ from linkanim.picture.overlay import DimensionLine, Overlay
 from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import Fade
+from linkanim.player.framing import fading, flash
 from linkanim.player.shown import lasting, overlay
-from linkanim.player.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
+from linkanim.player.state import CHIP_FRAMES, MOVE_FRAMES, SHUTTER_FRAMES, State, begin
 from linkanim.player.window import Window
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import closure_name
@@ -191,9 +191,9 @@ def test_another_mechanism_fades_over(player: Player) -> None:
     crank = player.pixels
     player.press(pygame.K_TAB, 0, "\t")
     first = player.pixels
-    seen = {player.pixels for _ in range(FADE_FRAMES) if player.tick()}
+    seen = {player.pixels for _ in range(MOVE_FRAMES) if player.tick()}
     settled = player.settle()
-    assert len(seen) > FADE_FRAMES // 2
+    assert len(seen) > MOVE_FRAMES // 2
     near = sum(abs(a - b) for a, b in zip(first, crank, strict=True))
     far = sum(abs(a - b) for a, b in zip(first, settled, strict=True))
     assert near < far
@@ -205,18 +205,21 @@ def test_another_mechanism_fades_over(player: Player) -> None:
 def test_a_flash_lets_the_picture_be_seen(shutter: int, share: float) -> None:
     surface = pygame.Surface((4, 4))
     surface.fill((100, 100, 100))
-    Fade().draw(surface, 0, shutter)
+    flash(surface, shutter)
     for corner in ((0, 0), (3, 3)):
         assert surface.get_at(corner)[0] == pytest.approx(100 + share * 155, abs=2)
 
 
-def test_a_fade_is_of_a_picture_as_large_as_the_window(rocker: State) -> None:
-    fade, state = Fade(), after(rocker, "theme")
-    assert fade.strength(state, pygame.Surface(SIZE)) > 0
-    assert fade.strength(run(state, 1), pygame.Surface((400, 300))) == 0
+def test_the_state_that_is_left_fades(rocker: State) -> None:
+    state = after(rocker, "theme")
+    left, opacity = fading(state) or (None, 0)
+    assert left == rocker
+    assert 0 < opacity < 255
+    assert (fading(run(state, 1)) or (None, 255))[1] < opacity
+    assert fading(run(state, MOVE_FRAMES)) is None
 
 
-def test_a_fade_ends_where_the_window_changes_its_size(player: Player) -> None:
+def test_a_fade_goes_on_where_the_window_changes_its_size(player: Player) -> None:
     player.type("l")
     pygame.display.set_mode((400, 300), pygame.RESIZABLE)
     assert player.tick()
@@ -287,7 +290,7 @@ MARKS = {
 @pytest.mark.parametrize("over", MARKS.values(), ids=MARKS)
 def test_a_mark_is_drawn_and_goes(over: Overlay, size: tuple[int, int]) -> None:
     with display.opened(size):
-        player = Player(after(begin(load("crank-rocker")), Action("chart", 1), "pause"))
+        player = Player(run(after(begin(load("crank-rocker")), Action("chart", 1), "pause"), MOVE_FRAMES))
         screen, plain = player.window.screen, player.pixels
         screen.show(
             player.state, replace(lasting(player.state), **vars(over) | {"paused": True, "noted": True})

@@ -81,7 +81,7 @@ def builder(here: object) -> Iterator[Builder]:
 
 def captions(builder: Builder) -> list[Rect]:
     """Return where words stand on the window, without those of the list beside the sheet."""
-    picture, state, over = builder.window.screen._framing.last, builder.state, builder.window.screen.over
+    picture, state, over = builder.window.screen.last, builder.state, builder.window.screen.over
     assert over.build
     bare = replace(over, build=replace(over.build, panel=None))
     groups = picture.groups(picture.scene.pose(state.phase), bare)
@@ -242,7 +242,7 @@ def test_the_crank_is_turned_by_the_hand(builder: Builder) -> None:
 
 def test_icons_take_tools_and_act(builder: Builder) -> None:
     builder.click(0, 0)
-    cells = tool_cells(builder.window.screen._framing.last.layout)
+    cells = tool_cells(builder.window.screen.last.layout)
     undo = next(n for n, tool in enumerate(TOOLS) if tool.icon == "undo")
     builder.drag((cells[undo].middle.real, cells[undo].middle.imag))
     assert not builder.sheet.building.draft.places
@@ -791,7 +791,7 @@ def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Pa
 
 
 def test_tools_are_as_large_for_their_window_at_every_size(builder: Builder) -> None:
-    layout = builder.window.screen._framing.last.layout
+    layout = builder.window.screen.last.layout
     sides = [tool_cells(replace(layout, size=(1280 * n, 720 * n), unit=float(n)))[0].width for n in (1, 2, 3)]
     assert sides == pytest.approx([40.0, 80.0, 120.0])
 
@@ -833,7 +833,7 @@ def listed(builder: Builder, name: str) -> tuple[RowsShown, list[Rect]]:
     assert shown
     rows: RowsShown | None = getattr(shown, name)
     assert rows
-    picture = builder.window.screen._framing.last
+    picture = builder.window.screen.last
     return rows, [*row_rects(picture.layout, picture.view, rows)][1:]
 
 
@@ -1052,7 +1052,7 @@ def test_the_grid_says_its_size_and_points_of_bodies_are_dots(builder: Builder) 
     assert shown
     assert len(shown.dots) == 1
     screen_ = builder.window.screen
-    groups = screen_._framing.last.groups(builder.state.scene.pose(builder.state.phase), screen_.over)
+    groups = screen_.last.groups(builder.state.scene.pose(builder.state.phase), screen_.over)
     captions = [one.text for group in groups for one in group.captions]
     assert f"grid {builder.window.screen.grid_step:g} mm" in captions
 
@@ -1064,7 +1064,7 @@ def test_letters_of_a_draft_are_off_its_bars(builder: Builder, size: tuple[int, 
     builder.four_bar()
     for end in ((150, 40), (60, 20), (130, -40)):
         builder.draw((100, 0), end)
-    shown, picture = builder.window.screen.over.build, builder.window.screen._framing.last
+    shown, picture = builder.window.screen.over.build, builder.window.screen.last
     assert shown
     assert shown.draft
     thick = draft_gauge(picture.layout, picture.view, shown.draft)

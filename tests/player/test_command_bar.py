@@ -276,7 +276,7 @@ def test_the_chart_has_buttons_of_its_own_at_its_head(player: Player) -> None:
     player.settle()
     first = player.state.look.chart
     x, y, _ = button(player, "chart: the next quantity")
-    chart = player.window.screen._framing.last.layout.chart
+    chart = player.window.screen.last.layout.chart
     assert chart
     assert chart.inset(-20).holds(x, y)
     click(player, "chart: the next quantity")
@@ -563,11 +563,11 @@ def test_nothing_that_is_shown_for_long_is_under_the_bar(size: tuple[int, int], 
     }
     for look, actions in looks.items():
         state = after(begun, *actions, "stir")
-        framing = Framing(window=True)
-        place = framing.fitting(state, size).layout
+        picture = Framing(window=True).fitting(state, size)
+        place = picture.layout
         frame = bar_place(place, bar(state))
         assert frame
-        assert framing.last.composition.has_room, look
+        assert picture.composition.held(picture.composition.subject).view is picture.composition.view, look
         standing = (place.chart, place.polygons, place.caption)
         assert not any(frame.meets(one) for one in standing if one), look
 
@@ -576,7 +576,7 @@ def test_the_help_ends_above_the_bar() -> None:
     with screen.opened((1280, 720)):
         player = Player(after(begin(load("crank-rocker")), "help", "stir"))
         shown = player.window.screen
-        frame = bar_place(shown._framing.last.layout, shown.over.bar)
+        frame = bar_place(shown.last.layout, shown.over.bar)
         assert frame
         assert all(shown.help_at(x, frame.y) is None for x in range(0, 1280, 20))
         player.window.close()

@@ -323,13 +323,12 @@ def test_a_pin_s_angle_has_a_handle_however_its_degrees_are_written(angle: str) 
 def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None:
     framing, size = Framing(), (1280, 720)
     state = opened("crank-rocker", 1.0)
-    before = framing.at(state, size).view
+    before = framing.fitting(state, size).view
     near = drag(state, "B", (9.0, 7.0))
     assert near.scene is not state.scene
-    assert framing.at(near, size).view == before
+    assert framing.fitting(near, size).view == before
     far = after(near, Action("carry", (170.0, 400.0, 1.0)))
     assert far.scene is not near.scene
-    framing.at(far, size)
     assert framing.fitting(far, size).view.scale < before.scale
     left = after(near, "drop")
     assert framing.fitting(left, size).view != before
@@ -350,10 +349,10 @@ def test_linkage_chart_list_and_dimensions_follow_the_hand_in_every_frame(player
     shown, seen = player.window.screen, list[tuple[object, ...]]()
     x, y = shown.pixel(*place(player.state, "B"))
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
-    anchors = [label.anchor for label in shown._framing.last.names.labels]
+    anchors = [label.anchor for label in shown.last.names.labels]
     for step in range(1, 8):
         player.mouse(pygame.MOUSEMOTION, (x + 9 * step, y), rel=(9, 0), buttons=(1, 0, 0))
-        picture, panel = shown._framing.last, shown.over.panel
+        picture, panel = shown.last, shown.over.panel
         assert picture.scene is picture.figure.scene is player.state.scene
         assert picture._chart
         assert picture._chart.panels[0].figure is picture.figure

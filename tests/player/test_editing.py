@@ -11,7 +11,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.edits import renewed
 from linkanim.player.shown import overlay
-from linkanim.player.state import EVERY, FLASH_FRAMES, FRAMES, Changeover, State, begin, chosen, closes
+from linkanim.player.state import EVERY, FLASH_FRAMES, MOVE_FRAMES, Changeover, State, begin, chosen, closes
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions, passing
 from linkanim.scenes.reading import scene_from
@@ -343,7 +343,7 @@ def shown_crank(state: State) -> float:
 def test_a_length_is_followed_smoothly(crank: State) -> None:
     lengths = []
     state = typed(crank, "40")
-    for _ in range(FRAMES + 1):
+    for _ in range(MOVE_FRAMES + 1):
         lengths.append(shown_crank(state))
         state = advance(state)
     assert lengths[0] == 50.0
@@ -366,19 +366,19 @@ def test_an_angle_in_another_unit_goes_there_as_a_shape() -> None:
 def test_a_change_begins_and_ends_gently(crank: State) -> None:
     lengths = []
     state = typed(crank, "40")
-    for _ in range(FRAMES + 1):
+    for _ in range(MOVE_FRAMES + 1):
         lengths.append(shown_crank(state))
         state = advance(state)
     steps = [a - b for a, b in pairwise(lengths[::EVERY])]
     assert max(steps[0], steps[-1]) < max(steps) / 4
-    assert lengths[FRAMES // 2] == pytest.approx(45.0)
+    assert lengths[MOVE_FRAMES // 2] == pytest.approx(45.0)
     assert steps == pytest.approx(steps[::-1])
 
 
 def on_the_way(name: str, choose: int, steps: int) -> State:
     """Return a scene some frames after its chosen dimension was nudged."""
     state = after(begin(load(name)), "edit", Action("choose", choose), Action("nudge", steps))
-    for _ in range(FRAMES // 2):
+    for _ in range(MOVE_FRAMES // 2):
         state = advance(state)
     assert state.shown is not state.scene
     return state
@@ -452,7 +452,7 @@ def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
 
 
 def test_a_second_change_starts_from_what_is_shown(crank: State) -> None:
-    halfway = after(typed(crank, "40"), *[Action("note", "")] * (FRAMES // 2), Action("type", "60"))
+    halfway = after(typed(crank, "40"), *[Action("note", "")] * (MOVE_FRAMES // 2), Action("type", "60"))
     again = after(halfway, "take")
     assert value(again, "Crank 2") == 60.0
     assert shown_crank(again) == pytest.approx(shown_crank(halfway), abs=2.0)

@@ -265,7 +265,7 @@ def test_the_keys_show_the_layers_and_write_the_parts(player: Player) -> None:
 def test_the_slider_is_dragged(player: Player) -> None:
     player.press(pygame.K_F6)
     player.tick()
-    rect = slider_rect(player.window.screen._framing.last.layout)
+    rect = slider_rect(player.window.screen.last.layout)
     row = rect.middle.imag
     player.drag((rect.x + 15, row), (rect.right + 40, row))
     assert player.state.of(Layering)

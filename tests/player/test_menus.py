@@ -242,7 +242,7 @@ def test_a_right_click_on_a_joint_a_link_and_the_chart_lists_what_these_have(pla
     player.tick()
     player.settle()
     a, b = place(player, "A"), place(player, "O2")
-    chart = player.window.screen._framing.last.layout.chart
+    chart = player.window.screen.last.layout.chart
     assert chart
     spots = {
         "Joint A": a,

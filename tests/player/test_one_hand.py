@@ -133,7 +133,7 @@ class Pointing(Hand):
 
     def tool(self, name: str) -> None:
         number = next(n for n, one in enumerate(TOOLS) if one.name == name)
-        cell = tool_cells(self.player.window.screen._framing.last.layout)[number]
+        cell = tool_cells(self.player.window.screen.last.layout)[number]
         self.drag((cell.middle.real, cell.middle.imag))
 
     def option(self, number: int) -> None:
@@ -150,7 +150,7 @@ class Pointing(Hand):
 
     def loop(self) -> Iterator[Place]:
         """Yield the places of a closed stroke."""
-        stage = self.player.window.screen._framing.last.layout.stage
+        stage = self.player.window.screen.last.layout.stage
         middle, reach = stage.middle, 0.25 * min(stage.width, stage.height)
         for turn in np.linspace(0, 6.2, 40).tolist():
             yield middle.real + 1.3 * reach * math.cos(turn), middle.imag + 0.8 * reach * math.sin(turn)

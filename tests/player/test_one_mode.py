@@ -35,7 +35,7 @@ class Editor(Player):
 
     def tool(self, icon: str) -> None:
         number = next(n for n, one in enumerate(TOOLS) if one.icon == icon)
-        cell = tool_cells(self.window.screen._framing.last.layout)[number].middle
+        cell = tool_cells(self.window.screen.last.layout)[number].middle
         self.drag((cell.real, cell.imag))
 
     def draw(self, *places: tuple[float, float]) -> None:

@@ -22,7 +22,7 @@ from linkanim.player.actions import advance
 from linkanim.player.beside import actions_of, request_of
 from linkanim.player.pencil import Pencil, cognate_at
 from linkanim.player.shown import overlay
-from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, PathSketch, State, begin
+from linkanim.player.state import MOVE_FRAMES, TOAST_FRAMES, PathSketch, State, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
@@ -100,7 +100,7 @@ def test_the_first_answer_is_shown_at_once_and_glides_to_the_refined_one(stroke:
     whole = after(first, Action("cards", (0.0, *BETTER, *OTHER)))
     assert (sketch_of(whole).off, len(sketch_of(whole).answers)) == (0.12, 2)
     assert whole.glide is not None
-    settled = after(whole, *["direction"] * (FRAMES + 1))
+    settled = after(whole, *["direction"] * (MOVE_FRAMES + 1))
     assert settled.glide is None
     assert settled.scene.document["joints"]["A"]["length"] == 32.0
 
@@ -317,8 +317,8 @@ def loop(player: Player) -> list[tuple[float, float]]:
 def settle(player: Player) -> None:
     """Let what glides come to rest, and the view with it, which begins to move when it is seen."""
     player.tick(3)
-    player.tick(2 * FRAMES)
-    player.tick(FRAMES)
+    player.tick(2 * MOVE_FRAMES)
+    player.tick(MOVE_FRAMES)
 
 
 @pytest.mark.usefixtures("in_step")
@@ -326,11 +326,11 @@ def test_a_path_is_drawn_with_the_mouse_and_its_linkage_written(player: Player, 
     paused = player.pixels
     player.type("w")
     assert player.state.mode == "pencil"
-    player.tick(FADE_FRAMES)
+    player.tick(MOVE_FRAMES)
     blank = player.pixels
     player.drag(*loop(player))
     assert player.pixels not in (paused, blank)
-    player.tick(FRAMES + 2)
+    player.tick(MOVE_FRAMES + 2)
     assert sketch_of(player.state).off == 0.12
     player.type("2")
     assert sketch_of(player.state).chosen == 1
@@ -377,7 +377,7 @@ def test_stroke_linkage_cognates_and_cards_are_all_in_sight_and_0_brings_them_ba
             bars = [side for n, one in enumerate(sketch.cognates) if one for side in cognate_sides(pose, n)]
             places = [*map(complex, *zip(*pose.position.values(), strict=True)), *sum(bars, ())]
             found = [view.pixel(at.real, at.imag) for at in (*sketch.points, *places)]
-            stage = view._framing.last.layout.stage
+            stage = view.last.layout.stage
             low = min((cell.y for cell in view.answer_cells()), default=stage.bottom)
             return all(0 <= x <= size[0] and 0 <= y <= low for x, y in found)
 
@@ -386,7 +386,7 @@ def test_stroke_linkage_cognates_and_cards_are_all_in_sight_and_0_brings_them_ba
         for _ in range(9):
             pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=1))
             player.tick()
-        box, view = player.window.screen._framing.last.figure.box, player.window.screen
+        box, view = player.window.screen.last.figure.box, player.window.screen
         (left, top), (right, low) = view.pixel(box.left, box.high), view.pixel(box.right, box.low)
         assert Rect(left, top, right - left, low - top).meets(Rect(0, 0, *size))
         player.type("0")
@@ -672,7 +672,7 @@ def test_blank_paper_is_drawn_on_where_a_chart_was(player: Player, key: str) -> 
     pygame.display.set_mode((900, 500), pygame.RESIZABLE)
     player.window.state = advance(player.state, [Action("plot", "rocker.angle")])
     player.settle()
-    chart, phase = player.window.screen._framing.last.layout.chart, player.state.phase
+    chart, phase = player.window.screen.last.layout.chart, player.state.phase
     assert chart
     player.press({"w": pygame.K_w, "f2": pygame.K_F2, "f4": pygame.K_F4}[key])
     player.settle()

@@ -174,7 +174,7 @@ def test_the_trace_and_the_chart_point_at_one_instant(player: Player) -> None:
     assert shown.over.instant == pytest.approx(2.5, abs=0.05)
     assert shown.over.told
     assert shown.over.told.lines[0].startswith("crank angle 14")
-    area = shown._framing.last._chart.panels[0].plot.area  # type: ignore[union-attr]
+    area = shown.last._chart.panels[0].plot.area  # type: ignore[union-attr]
     move(player, (area.x + area.width / 4, area.y + area.height / 2))
     assert shown.over.instant == pytest.approx(math.pi / 2, abs=0.05)
 
@@ -210,7 +210,7 @@ def rows_shown(here: Path) -> Iterator[Player]:
 
 
 def row_of(player: Player, label: str) -> tuple[float, float]:
-    picture = player.window.screen._framing.last
+    picture = player.window.screen.last
     return next((40.0, float(y)) for y in range(20, 400, 2) if picture.label_at(40, y) == label)
 
 
@@ -273,7 +273,7 @@ def test_a_right_click_on_a_row_of_numbers_lists_all_commands(rows_shown: Player
 
 
 def test_every_row_of_numbers_is_under_the_mouse_at_its_place(rows_shown: Player) -> None:
-    picture = rows_shown.window.screen._framing.last
+    picture = rows_shown.window.screen.last
     assert picture._hud
     assert picture.composition.block.rows
     for label in picture.composition.block.rows:
@@ -286,12 +286,12 @@ def test_a_click_on_a_polygon_makes_it_large_and_another_shows_both(player: Play
     player.press(pygame.K_p)
     shown = player.window.screen
     for order in (1, 2):
-        rects = {one.order: one.rect for one in shown._framing.last._polygons}
+        rects = {one.order: one.rect for one in shown.last._polygons}
         assert sorted(rects) == [1, 2]
         at = rects[1 if order == 1 else 2].middle
         player.drag((at.real, at.imag))
         assert player.state.look.large_polygon == order
-        (alone,) = shown._framing.last._polygons
+        (alone,) = shown.last._polygons
         player.drag((alone.rect.middle.real, alone.rect.middle.imag))
         assert player.state.look.large_polygon == 0
     player.press(pygame.K_p, pygame.KMOD_LSHIFT)

@@ -21,8 +21,7 @@ from linkanim.play.games import game_of
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
-from linkanim.player.framing import APPROACH_FRAMES
-from linkanim.player.state import begin
+from linkanim.player.state import MOVE_FRAMES, begin
 from linkanim.scenes import load
 
 FOLDER = Path(linkanim.__file__).parent / "manual" / "pictures"
@@ -59,7 +58,7 @@ def _edit(player: Player) -> None:
     player.press(pygame.K_DOWN)
     player.type("7 cm")
     player.press(pygame.K_RETURN)
-    player.tick(APPROACH_FRAMES)
+    player.tick(MOVE_FRAMES)
 
 
 def _names(player: Player) -> None:

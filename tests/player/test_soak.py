@@ -26,7 +26,7 @@ from linkanim.mechanics.motion import mechanism
 from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.state import State, begin
+from linkanim.player.state import MOVE_FRAMES, State, begin
 from linkanim.scenes import names
 
 # each time anew, as in a window: `linkanim.scenes.load` of the tests keeps what was worked out for its scenes
@@ -186,6 +186,8 @@ def test_what_was_worked_out_for_an_edited_scene_goes_when_another_is_put_on() -
     assert len(solved) == 3
     lengths = state.scene.linkage
     state = advance(state, [Action("mechanism", 1)])
+    for _ in range(MOVE_FRAMES):
+        state = advance(state)
     del editing
     mechanism.cache_clear()
     gc.collect()

@@ -260,6 +260,7 @@ def untouched(state: State, minutes: int = 20) -> State:
 def still(state: State) -> State:
     """Return what of a state stays while its clock runs on: a message and a flash go."""
     gone = replace(state, frame=0, toast=None, chip=None, place_typed="", faded=None, turned=None, glide=None)
+    gone = replace(gone, departures=())
     return replace(gone, effects=(), beneath=None)
 
 

@@ -210,7 +210,7 @@ def test_answers_and_the_dial_are_under_the_mouse_and_a_finger(here: object) -> 
     with screen.opened(SIZE):
         player = Player(_with_dial())
         player.settle()
-        shown, room = player.window.screen, player.window.screen._framing.last.layout.dial
+        shown, room = player.window.screen, player.window.screen.last.layout.dial
         assert room
         card = shown.answer_cells()[1].middle
         spots = [(x, room.middle.imag) for x in range(0, SIZE[0], 20) if shown.on_dial(x, room.middle.imag)]

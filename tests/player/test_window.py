@@ -26,7 +26,7 @@ from linkanim.player.clock import STEP
 from linkanim.player.listing import Listing
 from linkanim.player.naming import Naming
 from linkanim.player.shelving import OpenShelf
-from linkanim.player.state import CHIP_FRAMES, FRAMES, TOAST_FRAMES, State, begin
+from linkanim.player.state import CHIP_FRAMES, MOVE_FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
@@ -538,7 +538,7 @@ def test_edits_are_followed_and_undone_to_the_same_pixels(player: Player) -> Non
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
     player.press(*plain("e"))
-    on_the_way = {player.pixels for _ in range(FRAMES - 3) if player.tick()}
+    on_the_way = {player.pixels for _ in range(MOVE_FRAMES - 3) if player.tick()}
     assert len(on_the_way) > 5
     player.tick(20)
     assert player.pixels not in {pixels, *on_the_way}
@@ -565,7 +565,7 @@ def test_the_wheel_zooms_about_the_mouse(player: Player) -> None:
 
 
 def test_the_wheel_zooms_about_the_middle_before_the_mouse_was_seen(player: Player) -> None:
-    middle = player.window.screen._framing.last.about
+    middle = player.window.screen.last.about
     before = player.window.screen.world(*middle)
     player.mouse(pygame.MOUSEWHEEL, (0, 0), x=0, y=2)
     assert player.window.screen.world(*middle) == pytest.approx(before)
@@ -582,7 +582,7 @@ def test_the_linkage_stays_in_sight_however_it_is_zoomed(
     if listed:
         player.press(pygame.K_e, 0, "e")
     player.tick(60)
-    framing = player.window.screen._framing
+    framing = player.window.screen
     assert framing.last.layout.chart
     at = framing.last.layout.chart.middle if at is None else at
     for notches in (-40, 40):
@@ -744,10 +744,10 @@ def test_names_and_dimensions_are_complete_as_soon_as_they_are_asked_for(player:
     """And stand as in a fresh window, once the view has come to rest; after a change of size at once."""
     for _ in range(2):
         player.press(pygame.K_n, text="n")
-        labels = player.window.screen._framing.last.names.labels
+        labels = player.window.screen.last.names.labels
         assert labels
         assert player.settle() == Player(player.state).pixels
-        assert player.window.screen._framing.last.names.labels == labels
+        assert player.window.screen.last.names.labels == labels
     pygame.display.set_mode((640, 400), pygame.RESIZABLE)
     player.tick()
     assert player.pixels == Player(player.state).pixels
