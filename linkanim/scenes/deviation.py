@@ -41,7 +41,7 @@ _PHASES = 72
 _SEED = 1
 _STENCIL = np.array([4 / 5, -1 / 5, 4 / 105, -1 / 280])
 """The weights of a central difference of order 8 at one to four steps."""
-_STEPS = 2.0 ** -np.array([3.0, 6.0, 9.0])
+_STEPS = 2.0 ** -np.array([5.0, 7.0, 9.0])
 """The steps, as shares of what a length may well change by."""
 _BESIDE = 0.05
 """How far (rad) to either side of a dead centre a parabola finds a sample's own."""

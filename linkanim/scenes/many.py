@@ -8,6 +8,7 @@ linearly from these: by how much is found by reading the file again with other v
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import field
 from functools import partial
 from typing import Any
@@ -114,10 +115,12 @@ def solve_many(
         results = np.full((rows_of, count), np.nan)
     results[:, left] = np.nan
     found = {kind: arrays(places, results, (count,), kind) for kind in places.places}
+    read: dict[tuple[float, ...], Scene | None] = {}
     for n in np.flatnonzero(left):
-        try:
-            one = with_dimensions(scene, {k.key: float(row[n]) for k, row in zip(chosen, rows, strict=True)})
-        except LinkanimError:
+        own = tuple(float(row[n]) for row in rows)
+        if own not in read:
+            read[own] = _with(scene, {number.key: value for number, value in zip(chosen, own, strict=True)})
+        if (one := read[own]) is None:
             continue
         alone = pose(one, float(phases[n]))
         for kind, there in places.places.items():
@@ -126,6 +129,13 @@ def solve_many(
     for values in found.values():
         read_only(tuple(values.values()))
     return Many(scene, phases, **found)
+
+
+def _with(scene: Scene, values: Mapping[Key, float]) -> Scene | None:
+    """Return a scene with other lengths; None where it cannot be put together."""
+    with suppress(LinkanimError):
+        return with_dimensions(scene, values)
+    return None
 
 
 def _layout_of(pose: Pose, derivatives: int) -> tuple[Layout, int]:

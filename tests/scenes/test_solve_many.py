@@ -212,6 +212,21 @@ def test_linkages_like_the_scene_are_solved_together(name: str, monkeypatch: pyt
     assert all(np.isfinite(places).all() for places in found.position.values())
 
 
+# A cylinder's linkages are read one by one: three of them at forty phases each are three.
+def test_a_linkage_that_is_read_by_itself_is_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, read = load("driven-piston"), list[object]()
+
+    def counted(scene: Scene, values: Mapping[Any, float]) -> Scene:
+        read.append(values)
+        return with_dimensions(scene, values)
+
+    monkeypatch.setattr("linkanim.scenes.many.with_dimensions", counted)
+    places = np.repeat([60.0, 61.0, 62.0], 40)
+    found = solve_many(scene, {"P.at.0": places}, np.tile(np.arange(40) / 40, 3))
+    assert len(read) == 3
+    assert all(np.isfinite(places).all() for places in found.position.values())
+
+
 # Which way a formula takes, where each is right, follows from the scene and not from its other rows.
 @pytest.mark.parametrize("name", ["crank-rocker", "double-rocker", "slider-crank", "inverted-slider-crank"])
 def test_a_row_is_the_same_bits_alone_and_among_others(name: str) -> None:
