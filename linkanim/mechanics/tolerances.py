@@ -122,8 +122,8 @@ SOLVED = 1e-13
 """A correction of links that are solved together below which they are solved, in floats."""
 GUESSED = 1e-10
 """The same before they are solved to 38 digits: the correction there starts from about the square of this."""
-SOLVED_TO_ALL_DIGITS = 1e-14
-"""A correction in 38 digits after which the next one would be below 1e-27."""
+SOLVED_TO_ALL_DIGITS = 1e-30
+"""What the next correction in 38 digits would be at the most, by the last two."""
 LIMIT_SOLVED = 1e-34
 """A correction of a limit, in 38 digits, below which it is found."""
 ONE_CLOSURE = 1e-6

@@ -319,6 +319,18 @@ def held(form: str, seed: int) -> None:
             assert off <= (1e-14, 1e-14, 1e-12)[order] * scales[order], (form, seed, phase, order)
 
 
+BESIDE_LIMITS = {"of 0.2 degrees' range": 1393, "with two closures near each other": 27}
+"""Butterflies whose solutions beside a limit are lost to rounding where a correction is trusted too far."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", BESIDE_LIMITS.values(), ids=BESIDE_LIMITS)
+def test_the_solutions_beside_a_limit_have_all_their_digits(seed: int) -> None:
+    assert read(document("double butterfly", seed)).info.input_range
+    with mp.workdps(50):
+        held("double butterfly", seed)
+
+
 FEW, SEVERAL, MANY = 5, 100, 1000
 
 

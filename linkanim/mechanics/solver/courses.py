@@ -328,21 +328,34 @@ class _Fit:
             y[:, :-1] -= step
             if np.abs(step).max() < GUESSED:
                 break
-        inverse = np.linalg.inv(self.system.jacobian(y)[:, :, :-1])
         at = fixed(y.T)
         at[-1] = inputs
-        for _ in range(_ROUNDS):
-            off: Array = in_floats(self.exact.residual(at)).T
-            step = np.asarray(inverse @ off[..., None])[..., 0].T
-            at[:-1] -= fixed(step)
-            if np.abs(step).max() < SOLVED_TO_ALL_DIGITS:
-                break
+        self._to_all_digits(at)
         units = self.exact.units(at)
         rows: list[Any] = []
         for link, name in self.placed.values():
             rows += self.exact.point(at, units, link, name)
         slides = 3 * self.system.links
         return np.array([*rows, *at[slides : slides + len(self.system.slots)]], np.object_)
+
+    def _to_all_digits(self, at: Whole) -> None:
+        """Solve unknowns (m, N) in place, by corrections in floats, until the next one would be too small.
+
+        Beside a limit a correction is a worse one than elsewhere: by how much shows in the one before.
+        """
+        waiting, before = np.arange(at.shape[1]), np.full(at.shape[1], math.inf)
+        for _ in range(_ROUNDS):
+            now = at[:, waiting]
+            inverse = np.linalg.inv(self.system.jacobian(in_floats(now).T)[:, :, :-1])
+            off: Array = in_floats(self.exact.residual(now)).T
+            step = np.asarray(inverse @ off[..., None])[..., 0].T
+            at[:-1, waiting] = now[:-1] - fixed(step)
+            size = np.abs(step).max(axis=0)
+            left = size * np.minimum(size / before, 1.0) if np.isfinite(before).all() else size
+            more = left > SOLVED_TO_ALL_DIGITS
+            waiting, before = waiting[more], size[more]
+            if not waiting.size:
+                break
 
     def _inputs(self, phases: Whole) -> Whole:
         """Return the input at phases."""
