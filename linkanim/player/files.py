@@ -24,6 +24,7 @@ from linkanim.player.building import DRAFT, offered, stored_text
 from linkanim.player.state import BuildSheet, State
 from linkanim.scenes import load
 from linkanim.scenes.editing import under_class
+from linkanim.scenes.files import in_its_form
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content
 from linkanim.units import shown as quoted
@@ -172,7 +173,7 @@ class SavedScenes:
         path = atomic_files.checked_target(target, (".toml",))
         if os.path.lexists(path):
             raise BadInput(f"{intake.named(path.name)} is there already; type another name")
-        data = content(_entitled(scene), path.parent)
+        data = content(in_its_form(_entitled(scene)), path.parent)
         self._wrote[path] = data
         return atomic_files.add(data, path)
 
@@ -183,7 +184,7 @@ class SavedScenes:
                 raise BadInput(
                     f"{intake.named(path.name)} was changed after it was saved; Ctrl+Shift+S writes another"
                 )
-        data = content(_entitled(scene), path.parent)
+        data = content(in_its_form(_entitled(scene)), path.parent)
         atomic_files.write_text(path, data.decode("utf-8"))
         self._wrote[path] = data
         return path

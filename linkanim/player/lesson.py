@@ -28,7 +28,7 @@ from linkanim.player.edits import put_scene
 from linkanim.player.keys import BACK_BAR, BarEntry, KeyRow, ModeKeys, TypedKeys, enter, on
 from linkanim.player.state import Mode, Resolver, Rule, State, fresh, with_effect
 from linkanim.scenes import load, names
-from linkanim.scenes.files import path_of
+from linkanim.scenes.files import in_its_form, path_of
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content, parse
@@ -329,7 +329,9 @@ def _source(scene: Scene, files: Mapping[str, Scene], lesson: Path) -> tuple[str
             return (source if path is None else os.path.relpath(path, lesson.parent)), own
     folder = lesson.parent
     others = (folder / f"{lesson.stem}-{scene.name}-{n}.toml" for n in range(2, 10_000))
-    path = atomic_files.add(content(scene, folder), folder / f"{lesson.stem}-{scene.name}.toml", others)
+    path = atomic_files.add(
+        content(in_its_form(scene), folder), folder / f"{lesson.stem}-{scene.name}.toml", others
+    )
     return path.name, scene
 
 

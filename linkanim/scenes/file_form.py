@@ -332,6 +332,8 @@ _LENGTHS_OF_LINKS = ValueType(
         "additionalProperties": {"type": "object", "additionalProperties": LENGTH.schema or {}},
     },
 )
+POINTS_FORM = "points"
+"""The form of a scene that is saved by its points, though it was edited by its joints."""
 POSED = (
     Field("points", POINTS, "the joints in one pose", None),
     Field("links", LINKS, "the rigid links", {}),
@@ -1077,6 +1079,7 @@ SCENE_FILE = form(
     Field("look_at", TEXT, "what to watch for, in a sentence", ""),
     Field("notes", TEXTS, "what a reader of its figures should know", []),
     Field("length_unit", choice(*units.LENGTH_UNITS), "the unit of bare lengths", units.LENGTH_UNITS[0]),
+    Field("form", choice("joints", POINTS_FORM), "in which form the window saves the scene", "joints"),
     *(Field(key, one, one.words, None) for key, one in SHORTHANDS.items()),
     Field("joints", JOINTS, "the joints", {}),
     Field("ground", PINS, "the fixed pins", {}),

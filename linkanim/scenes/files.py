@@ -11,9 +11,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 from linkanim import intake
-from linkanim.errors import BadInput, SceneError
+from linkanim.errors import BadInput, LinkanimError, SceneError
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
+from linkanim.scenes.file_form import POINTS_FORM
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import SCENE_FILE, parse
 from linkanim.units import angle, angular_speed, shown
@@ -109,6 +110,34 @@ def _photographed(scene: Scene, folder: Path) -> Scene:
     if photo is None:
         return scene
     return replace(scene, document={**scene.document, "photo": photo | {"file": str(folder / photo["file"])}})
+
+
+def with_points(scene: Scene) -> Scene:
+    """Return the scene with the document that says it by its points and links.
+
+    SceneError where these alone do not say how it moves.
+    """
+    from linkanim.scenes.posing import as_points, moves_alike
+    from linkanim.scenes.reading import scene_from
+
+    document = as_points(scene)
+    made = scene_from(document, name=scene.name, where=f"{scene.name} as points")
+    if not moves_alike(scene, made):
+        raise SceneError(
+            f"{scene.name}: its points and links alone do not say how it moves; it stays in its form"
+        )
+    # the document that was read, not the joints that follow from it
+    return replace(made, document=document)
+
+
+def in_its_form(scene: Scene) -> Scene:
+    """Return the scene with a document in the form that its file had, as it is to be saved."""
+    if scene.document.get("form") != POINTS_FORM:
+        return scene
+    try:
+        return with_points(scene)
+    except LinkanimError:
+        return replace(scene, document={key: of for key, of in scene.document.items() if key != "form"})
 
 
 def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:

@@ -31,7 +31,14 @@ from linkanim.mechanics.groups import (
     LinkGroup,
 )
 from linkanim.mechanics.linkage import RRP, RRR
-from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS, motor_ratio
+from linkanim.scenes.file_form import (
+    GROUND,
+    MOTOR_OF_POINTS,
+    POINTS_FORM,
+    POSE_KEYS,
+    SECTIONS,
+    motor_ratio,
+)
 from linkanim.scenes.form import Table, on_circle
 from linkanim.units import angle, shown
 
@@ -681,6 +688,7 @@ def _connected(chain: _Dyads) -> list[str]:
 
 def _document(top: Table, pose: PosedLinks, chain: _Dyads, driven: dict[str, Any]) -> dict[str, Any]:
     stated = {key: value for key, value in top.values.items() if key not in (*POSE_KEYS, "bodies", "drives")}
+    stated["form"] = POINTS_FORM
     if chain.motors:
         stated["drives"] = chain.motors
     pins = {name: _pin(top, pose, name) for name in pose.links[GROUND]}

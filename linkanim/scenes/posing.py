@@ -11,14 +11,22 @@ from cmath import phase
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
+
 from linkanim.errors import SceneError
 from linkanim.mechanics.linkage import Slide
 from linkanim.scenes.file_form import GROUND, SHORTHANDS
 from linkanim.scenes.links import in_degrees
 from linkanim.scenes.scene import Scene
 
-_DROPPED = ("joints", GROUND, "bodies", "drive", "drives", *SHORTHANDS)
-"""Tables that [points] and [links] replace, or that are said anew."""
+_DROPPED = ("form", "joints", GROUND, "bodies", "drive", "drives", *SHORTHANDS)
+"""Keys that [points] and [links] replace, or that are said anew."""
+_CLOSE = 1e-9
+"""Share of the linkage's size by which the points of both forms may differ over a period."""
+_STATED = 9
+"""Lengths of so many digits were stated; those of more follow from points, which say them to all digits."""
+_ROUNDING = 4e-16
+"""Shares of the linkage's size by which a coordinate may be off a number of few digits that is meant."""
 
 
 def as_points(scene: Scene) -> dict[str, Any]:
@@ -31,6 +39,16 @@ def as_points(scene: Scene) -> dict[str, Any]:
     if "points" in scene.document:
         return dict(scene.document)
     return _PointForm(scene).document()
+
+
+def moves_alike(scene: Scene, made: Scene) -> bool:
+    """Return whether another scene moves as this one over its period."""
+    phases = np.linspace(0.0, scene.period, 24)
+    one, other = (each.solve(phase=phases, speed=1.0, derivatives=0).position for each in (scene, made))
+    size = max(float(np.ptp(place)) for place in one.values())
+    both = ((place, other[name]) for name, place in one.items() if name in other)
+    off = max((float(np.abs(there - here).max()) for here, there in both), default=size)
+    return off <= _CLOSE * size
 
 
 class _PointForm:
@@ -115,13 +133,27 @@ class _PointForm:
         return found
 
     def _lengths(self) -> dict[str, dict[str, float]]:
-        """Return the lengths of bars as they were stated."""
+        """Return the lengths of bars as they were stated, but for those that follow from the points."""
         found: dict[str, dict[str, float]] = {}
+        points = self._points()
         for joint in self.linkage.joints:
             for start, length in joint.bars:
-                link = found.setdefault(self.link_of(start, joint.name), {})
-                link[f"{start}-{joint.name}"] = length
+                ends = [points[name] for name in (start, joint.name)]
+                plain = all(float(f"{number:.{_STATED}g}") == number for place in ends for number in place)
+                if float(f"{length:.{_STATED}g}") == length and not (plain and math.dist(*ends) == length):
+                    link = found.setdefault(self.link_of(start, joint.name), {})
+                    link[f"{start}-{joint.name}"] = length
         return found
+
+    def _points(self) -> dict[str, list[float]]:
+        """Return the places of the points, without what rounding has added to them."""
+        size = max(abs(place) for place in self.at.values())
+
+        def meant(number: float) -> float:
+            short = float(f"{number:.{_STATED}g}")
+            return short if abs(short - number) <= _ROUNDING * size else number
+
+        return {name: [meant(place.real), meant(place.imag)] for name, place in self.at.items()}
 
     def _drive(self) -> dict[str, Any]:
         drive, stated = self.linkage.drive, dict(self.scene.document.get("drive", {}))
@@ -158,9 +190,8 @@ class _PointForm:
     def document(self) -> dict[str, Any]:
         """Return the whole document."""
         stated = {key: value for key, value in self.scene.document.items() if key not in _DROPPED}
-        points = {name: [place.real, place.imag] for name, place in self.at.items()}
         tables: Mapping[str, Any] = {
-            "points": points,
+            "points": self._points(),
             "links": self.links,
             "slides": dict(self._slides()),
             "gears": self._gears(),

@@ -13,7 +13,9 @@ import pytest
 import linkanim
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Rigid, Travel
+from linkanim.player.files import SavedScenes
 from linkanim.scenes import load
+from linkanim.scenes.editing import dimensions, with_dimensions
 from linkanim.scenes.reading import problems, scene_from
 from linkanim.scenes.scene import Scene
 
@@ -409,3 +411,52 @@ def test_a_stephenson_linkage_driven_at_its_first_link_is_a_chain() -> None:
         assert places[name] == pytest.approx(place, abs=1e-13)
     assert isinstance(scene.linkage.joint("F"), RRR)
     assert not any(isinstance(joint, RPR) for joint in scene.linkage.joints)
+
+
+SAVED = {
+    "a four-bar": FOUR_BAR,
+    "a slider-crank": SLIDER_CRANK,
+    "a leg": (EXAMPLES / "11-points.toml").read_text(),
+}
+
+
+@pytest.mark.parametrize("text", SAVED.values(), ids=SAVED)
+def test_it_is_saved_in_the_form_that_it_had(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("own.toml").write_text(text)
+    scene, before = load("own.toml"), tomllib.loads(text)
+    written = tomllib.loads(SavedScenes().add(scene, "same").read_text())
+    placed = {name: place for name, place in before["points"].items() if isinstance(place, list)}
+    assert {name: written["points"][name] for name in placed} == placed
+    assert {name: {*on} for name, on in written["links"].items()} == {
+        name: {*on} for name, on in before["links"].items()
+    }
+    assert not {"joints", "form"} & written.keys()
+    # the one length that the file states, in place of a point's coordinates
+    assert written.get("lengths", {}) == ({"crank": {"O2-A": 30.0}} if "O2" in placed else {})
+
+
+@pytest.mark.parametrize("text", SAVED.values(), ids=SAVED)
+def test_a_length_that_was_edited_is_saved_with_the_points(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("own.toml").write_text(text)
+    scene = load("own.toml")
+    length = next(one for one in dimensions(scene) if one.key[-1] == "length")
+    changed = with_dimensions(scene, {length.key: round(length.value * 1.05, 1)})
+    path = SavedScenes().add(changed, "changed")
+    assert "points" in tomllib.loads(path.read_text())
+    found = load(path)
+    phases = np.linspace(0, changed.period, 50)
+    one, other = (each.solve(phase=phases, speed=1.0) for each in (changed, found))
+    for name, place in one.position.items():
+        assert np.abs(other.position[name] - place).max() < 1e-12 * 200
+    assert round(length.value * 1.05, 1) in [of.value for of in dimensions(found)]
+
+
+def test_joints_are_saved_by_points_where_that_is_asked(tmp_path: Path) -> None:
+    asked = scene_from({**load("crank-rocker").document, "form": "points"}, name="my", where="my.toml")
+    assert "points" in tomllib.loads(SavedScenes().add(asked, str(tmp_path / "my")).read_text())
