@@ -85,14 +85,18 @@ def three_digits(value: float) -> str:
 
 
 def four_digits(value: float) -> str:
-    """Return a number to four significant digits, typeset, without an exponent from 0.0001 to 1e10.
+    """Return a number to four significant digits, typeset: in full from 0.0001 to 1e7, else as 5.52×10⁻⁵.
 
     What is below 1e-9 counts as 0.
     """
     if not isfinite(value):
         return stepped(value, 1.0)
-    value = float(f"{value:.4g}") if abs(value) >= 1e-9 else 0.0
-    return typeset(f"{value:.10g}")
+    mantissa, _, power = f"{value:.3e}".partition("e")
+    if abs(value) < 1e-9:
+        return "0"
+    if not _SMALLEST <= int(power) < _LARGEST:
+        return f"{typeset(f'{float(mantissa):g}')}×10{str(int(power)).translate(_RAISED)}"
+    return typeset(f"{float(f'{mantissa}e{power}'):.10g}")
 
 
 def typeset(text: str) -> str:

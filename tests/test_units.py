@@ -215,3 +215,21 @@ def test_angles_are_equal_where_all_their_digits_are() -> None:
 )
 def test_a_large_number_is_not_told_in_digits_that_it_has_not(value: float, text: str) -> None:
     assert units.short(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (14800.0, "14800"),
+        (-1234567.0, "−1235000"),
+        (12345678.0, "1.235×10⁷"),
+        (9999.6, "10000"),
+        (0.0001, "0.0001"),
+        (5.523e-05, "5.523×10⁻⁵"),
+        (-5.5e-05, "−5.5×10⁻⁵"),
+        (5e-10, "0"),
+        (math.inf, "∞"),
+    ],
+)
+def test_a_number_in_a_list_has_no_letter_for_its_power(value: float, text: str) -> None:
+    assert units.four_digits(value) == text

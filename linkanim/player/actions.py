@@ -315,6 +315,7 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, from_title=state.from_title, kiosk=state.kiosk, take=state.take)
+    resumed = replace(resumed, stirred=state.stirred)  # what was clicked in the game has brought the bar
     above = (one for one in state.unlisted.modes if not isinstance(one, Game))
     resumed = replace(resumed, modes=(*under.modes, *above))
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from math import isfinite
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -21,7 +20,7 @@ from linkanim.player.commands import LISTED_BAR, Entries, menu_of
 from linkanim.player.keys import KeyRow, ModeKeys, TypedKeys, both, enter, on
 from linkanim.player.state import Mode, Resolver, Rule, State
 from linkanim.scenes.scene import Scene
-from linkanim.units import significant, stepped, typeset
+from linkanim.units import four_digits, significant
 
 if TYPE_CHECKING:
     from linkanim.player.devices import Gesture, Mouse, Outside
@@ -121,17 +120,13 @@ def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
     parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
     if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
         parts = tuple(float(significant(float(part) % 360, 4)) % 360 for part in parts)
-    values = ", ".join(_four_digits(float(part)) for part in parts if part is not None)
+    values = ", ".join(four_digits(float(part)) for part in parts if part is not None)
     unit = one.shown_unit(scene.length_unit)
     return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
 
 
 def _cranks(scene: Scene) -> Iterator[Body]:
     return (body for body in scene.linkage.bodies if scene.linkage.crank_of(body))
-
-
-def _four_digits(value: float) -> str:
-    return typeset(significant(value, 4)) if isfinite(value) else stepped(value, 1.0)
 
 
 @frozen

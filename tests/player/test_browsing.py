@@ -63,7 +63,7 @@ def test_every_row_of_k_has_symbol_value_and_unit(name: str) -> None:
             for words, text in told.rows[max(told.chosen - 9, 0) : told.chosen + 10]:
                 plain = words == "Mechanical advantage"  # a ratio without a unit
                 assert re.fullmatch(
-                    r"\S.* = [−\d.,∞ ]+(·10\S+|e−?\d+)?" + ("" if plain else "(°|[a-zN/² ]+)"), text
+                    r"\S.* = [−\d.,∞ ]+(×10[⁻⁰¹²³⁴-⁹]+)?" + ("" if plain else "(°|[a-zN/² ]+)"), text
                 ), words
             player.press(pygame.K_PAGEDOWN)
             told = overlay(player.state).quantities
