@@ -175,6 +175,7 @@ WRITERS: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
 
 @pytest.mark.parametrize("name", WRITERS)
 @pytest.mark.parametrize("seed", range(10))
+@pytest.mark.thinned(3)
 def test_a_file_of_another_program_moves_as_what_it_was_written_from(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, seed: int
 ) -> None:

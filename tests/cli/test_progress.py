@@ -36,6 +36,7 @@ COUNTED: dict[str, tuple[list[str], str]] = {
 
 @pytest.mark.parametrize(("words", "unit"), COUNTED.values(), ids=COUNTED)
 @pytest.mark.parametrize("seen", [True, False], ids=["after a while", "soon done"])
+@pytest.mark.thinned(2)
 def test_a_bar_is_drawn_on_a_terminal_after_a_while(
     words: list[str], unit: str, seen: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -403,6 +403,7 @@ STARTS = {
 
 
 @pytest.mark.parametrize(("text", "speed", "acceleration"), STARTS.values(), ids=STARTS)
+@pytest.mark.thinned(2)
 def test_an_input_that_is_slow_and_speeds_up_asks_for_what_starts_it(
     text: str, speed: float, acceleration: float
 ) -> None:

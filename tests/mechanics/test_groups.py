@@ -335,6 +335,7 @@ FEW, SEVERAL, MANY = 5, 100, 1000
 
 
 @pytest.mark.parametrize("form", FORMS)
+@pytest.mark.slow
 def test_a_random_linkage_keeps_its_bars_and_moves_as_fifty_digits_say(form: str) -> None:
     with mp.workdps(50):
         held(form, 0)

@@ -228,6 +228,7 @@ def test_forty_linkages_of_every_kind_have_the_forces_of_newton_and_euler(make: 
 
 
 @pytest.mark.parametrize("make", [bar_that_limits_the_input, slot_that_limits_the_input, driven_by_a_slider])
+@pytest.mark.slow
 def test_beside_a_limit_the_forces_are_those_in_fifty_digits(make: Make) -> None:
     beside = (1e-12, -1e-12, 1e-9, -1e-6, 1e-3)
     with mp.workdps(DIGITS):

@@ -92,7 +92,9 @@ REFUSED = [
     ("kite -o a.pdf --max-size 1MB", "the pages of a PDF are a scene's motion"),
     ("kite -o a.png --max-size 1MB", "--max-size is for one file"),
     ("kite --max-size 1", '"1" is not the size of a file; write it as 1MB or 800kB'),
-    ("kite --size 160x90 --max-size 0.1kB", "raise it, or record a shorter period"),
+    pytest.param(
+        "kite --size 160x90 --max-size 0.1kB", "raise it, or record a shorter period", marks=pytest.mark.slow
+    ),
 ]
 
 

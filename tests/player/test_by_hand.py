@@ -98,6 +98,7 @@ def test_a_lecturer_s_list_takes_at_most_twelve_gestures(sitting: Sitting) -> No
     assert one.state.toast is None or "refused" not in one.state.toast.text
 
 
+@pytest.mark.slow
 def test_a_student_s_homework_takes_at_most_twenty_five_gestures(sitting: Sitting) -> None:
     one = sitting
     one.key("2")  # the door to the sheet

@@ -65,6 +65,7 @@ DONE: dict[str, Callable[[State], object]] = {
 
 
 @pytest.mark.parametrize("words", DONE)
+@pytest.mark.thinned(3)
 def test_what_is_found_is_done(player: Player, words: str) -> None:
     find(player, words)
     assert DONE[words](player.state)

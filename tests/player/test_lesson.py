@@ -92,6 +92,7 @@ def ten_states(player: Player) -> Iterator[tuple[str, State]]:
     yield "it swings", player.state
 
 
+@pytest.mark.slow
 def test_a_lesson_of_ten_steps_is_made_stepped_and_read_back(player: Player, here: Path) -> None:
     wanted: list[tuple[str, tuple[object, ...], int]] = []
     for caption, state in ten_states(player):

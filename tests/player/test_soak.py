@@ -177,6 +177,7 @@ def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, ob
     record_property("memory growth, MB", resident_mb() - before)
 
 
+@pytest.mark.slow
 def test_what_was_worked_out_for_an_edited_scene_goes_when_another_is_put_on() -> None:
     state = begin(load("crank-rocker"))
     for action in (Action("edit"), Action("nudge", 3), Action("nudge", 3), Action("undo")):

@@ -122,6 +122,7 @@ def test_the_command_lists_writes_and_draws_them(
     assert main(["closures", "no-such-scene"]) == 2
 
 
+@pytest.mark.slow
 def test_a_file_of_points_is_put_together_in_other_poses(tmp_path: Path) -> None:
     path = tmp_path / "s.toml"
     path.write_text(tomli_w.dumps(STEPHENSON), encoding="utf-8")

@@ -134,6 +134,7 @@ def test_the_length_that_matters_most_is_named(four_bar: Tolerance) -> None:
     assert four_bar.most(named(four_bar, "swing")) == "crank"
 
 
+@pytest.mark.slow
 def test_pins_are_off_from_the_input_s_own_and_masses_are_no_lengths() -> None:
     found = tolerance("press", 0.05, samples=0)
     assert not {"O2.0", "O2.1"} & set(found.lengths)

@@ -136,6 +136,7 @@ def test_an_output_follows_its_function_while_a_motor_turns() -> None:
         assert np.cos(output - wanted) == pytest.approx(1.0, abs=1e-14)
 
 
+@pytest.mark.slow
 def test_an_open_curve_is_followed_by_a_motor_that_turns_fully() -> None:
     found = linkanim.path(ARC.view(float).reshape(-1, 2), False, count=3, driver=True)
     assert all(fit.scene.info.full_turn for fit in found)

@@ -160,6 +160,7 @@ def test_a_chosen_answer_never_doubles_the_size_for_less_than_a_third_of_the_dev
 # Six points of a curve, in millimetres, in metres, and as large as a crane.
 @pytest.mark.parametrize("scale", [2.0**-10, 2.0**10], ids=["tiny", "huge"])
 @pytest.mark.parametrize("prefer", ["compact", "angle"])
+@pytest.mark.slow
 def test_a_curve_of_another_size_has_the_same_front(prefer: Preference, scale: float) -> None:
     points = np.array([(-62, -41), (-42, -67), (19, -10), (95, 49), (31, 58), (-41, 11)], dtype=float)
     usual, other = (path(size * points, prefer=prefer, count=2) for size in (1.0, scale))
@@ -243,6 +244,7 @@ def test_what_does_not_follow_is_not_on_the_front() -> None:
 # What a search looks at must not grow with the points: only answers that are listed are checked at all of
 # them, each in some twenty passes. The sum of all cells that the solver was asked for says so.
 @pytest.mark.parametrize("prefer", ["balanced", "exact"])
+@pytest.mark.slow
 def test_a_long_path_is_searched_by_some_of_its_points_and_answered_at_all(
     prefer: Preference, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -230,6 +230,8 @@ STARTS: tuple[tuple[str, int, str, tuple[float, ...]], ...] = (
 
 
 @pytest.mark.parametrize(("kind", "points", "scale", "starts"), STARTS)
+@pytest.mark.slow
+@pytest.mark.thinned(2)
 def test_a_start_that_is_given_is_kept(kind: str, points: int, scale: str, starts: tuple[float, ...]) -> None:
     name = f"{scale}_start"
     for start in starts:
