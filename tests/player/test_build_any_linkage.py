@@ -37,7 +37,7 @@ class Hand(Builder):
             self.draw(self.place(start), self.place(end) if isinstance(end, str) else end)
 
     def tool(self, icon: str) -> Point:
-        cells = tool_cells(self.window.screen._framing.last.layout)
+        cells = tool_cells(self.window.screen.last.layout)
         cell = cells[next(n for n, tool in enumerate(TOOLS) if tool.icon == icon)]
         return cell.middle.real, cell.middle.imag
 
