@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache
 from itertools import product
+from math import tau
 
 import numpy as np
 
@@ -65,6 +66,8 @@ It may change more in a moving picture, in which names are not as close to other
 """
 _SAMPLES = 60
 """The most moments at which arrows are looked at."""
+_LOOKED_AT = 24
+"""The poses of one turn of the input whose instant centres a moving picture includes."""
 
 
 class Wanted(NamedTuple):
@@ -283,9 +286,22 @@ class _Composer:
         """How far the linkage extends, with the one beside it and places that have to be seen."""
         asked, figures = self.asked, self.subject.figures
         found = [of_linkage(one, self._gauge, asked.moment, traced=asked.traced) for one in figures]
-        if asked.also:
-            found.append(around(np.array(asked.also), 2.0 * self._gauge.bar))
+        if also := (*asked.also, *self._near_centres):
+            found.append(around(np.array(also), 2.0 * self._gauge.bar))
         return together(found)
+
+    @property
+    def _near_centres(self) -> tuple[complex, ...]:
+        """The instant centres near the linkage, in its pose or over its cycle, where they are shown."""
+        if not self.asked.centres:
+            return ()
+        shown, moment = self.subject.figure, self.asked.moment
+        scene, pairs = shown.scene, CentrePairs(shown)
+        if moment is not None:
+            pose = scene.pose(moment, 2)
+            return pairs.near(pose, shown.box_of(pose))
+        count = round(_LOOKED_AT * max(scene.period / tau, 1))
+        return pairs.passed(shown.box, max(len(shown.cycle.phase) // count, 1))
 
     @cached_property
     def arrows(self) -> tuple[Arrows, ...]:

@@ -80,6 +80,11 @@ class Group(NamedTuple):
     made_of: object = None
     under: Underlay | None = None
 
+    def shifted(self, right: float, down: float) -> Group:
+        """Return the group so many pixels to the right and down."""
+        words = [one._replace(at=(one.at[0] + right, one.at[1] + down)) for one in self.captions]
+        return self._replace(layers=[one.placed(complex(right, down)) for one in self.layers], captions=words)
+
     @property
     def named(self) -> Iterator[Caption]:
         """The words, each with what it is of: a thing of the linkage, or the kind of the group's words."""

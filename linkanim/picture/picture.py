@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from math import ceil, tau
+from math import ceil
 from typing import TYPE_CHECKING
 
 from linkanim.mechanics.motion import Pose
@@ -45,8 +45,6 @@ if TYPE_CHECKING:
 _NOTHING_STILL = Group("nothing", (), still=True)
 _THIN = 0.6
 """The least thickness of lines of parts, in pixels of a page."""
-_LOOKED_AT = 24
-"""The poses of one turn of the input whose instant centres a moving picture includes."""
 
 
 class Picture:
@@ -114,22 +112,9 @@ class Picture:
         """Return the composition of the scene, or that of the one `placed` with this scene in a hand."""
         goal, look = self._goal, self.look
         subject = subject_of(placed or goal, ghost=look.ghost)
-        if look.centres:
-            also = (*also, *self._near_centres(subject.figure))
         asked = wanted(placed or goal, self.size, look, docked, self._moment, also)
         found = composed(subject, asked, look)
         return found if placed in (None, goal) else found.held(subject_of(goal, ghost=look.ghost))
-
-    def _near_centres(self, shown: Figure) -> tuple[complex, ...]:
-        """Return the instant centres near a linkage, in its pose or cycle, which the view includes."""
-        from linkanim.picture.centres import CentrePairs
-
-        scene = shown.scene
-        pairs, count = CentrePairs(shown), round(_LOOKED_AT * max(scene.period / tau, 1))
-        if self._moment is not None:
-            pose = scene.pose(self._moment, 2)
-            return pairs.near(pose, shown.box_of(pose))
-        return pairs.passed(shown.box, max(len(shown.cycle.phase) // count, 1))
 
     @property
     def about(self) -> tuple[float, float]:
@@ -218,7 +203,8 @@ class Picture:
         yield from self._framed()
         for polygon in self._polygons:
             stands = overlay.paused and self._moment is None
-            yield (polygon.standing(pose.phase) if stands else polygon).group(pose)
+            found = (polygon.standing(pose.phase) if stands else polygon).group(pose)
+            yield found.shifted(*self._aside) if any(self._aside) else found
         yield from self._on_chart(pose, grasped=overlay.grip)
         if not overlay.construction:  # the words of a construction stand in this place
             yield from self._words(pose, noted=overlay.noted)
@@ -540,7 +526,8 @@ class Picture:
 
     @cached_property
     def _polygons(self) -> tuple[Polygon, ...]:
-        place = self._slots.polygons
+        """The polygons in their slots."""
+        place = self.layout.polygons
         if not place:
             return ()
         from linkanim.picture.polygons import polygons_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -400,6 +400,7 @@ def _rect(middle: complex, size: tuple[float, float]) -> Rect:
     return Rect(middle.real - size[0] / 2, middle.imag - size[1] / 2, *size)
 
 
+@lru_cache(maxsize=4)
 def polygons_of(
     figure: Figure, rect: Rect, pen: Pen, moment: float | None = None, *, only: int = 0
 ) -> tuple[Polygon, ...]:

@@ -308,7 +308,7 @@ class Lesson:
         source, own = _source(state.scene, files, path)
         added = block(state, source, own, caption)
         text = f"{self._text.rstrip()}\n\n{added}" if self._text.strip() else added
-        steps = _steps(parse(text, intake.named(path)), intake.named(path), path.parent)
+        steps = (*self.steps, *_steps(parse(added, intake.named(path)), intake.named(path), path.parent))
         atomic_files.write_text(path, text)
         self._path, self._text, self.steps, self._at = path, text, steps, len(steps) - 1
         return f"{intake.named(path)}: step {len(steps)} is kept; PgUp and PgDn show the steps"

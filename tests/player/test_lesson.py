@@ -26,6 +26,7 @@ from linkanim.player.tape import Taping
 from linkanim.player.tape_file import from_document, to_document
 from linkanim.player.window import Window
 from linkanim.scenes import load
+from linkanim.scenes.toml import content
 
 PLAIN = '[[step]]\nscene = "press"\n'
 
@@ -225,6 +226,17 @@ def test_a_file_keeps_what_stands_in_it_and_no_foreign_one_is_written_over(
     assert player.state.toast
     assert "changed meanwhile" in player.state.toast.text
     assert (here / "mine.toml").read_text() == "# changed\n" + text
+
+
+def test_a_step_is_kept_whatever_became_of_the_scenes_of_earlier_ones(player: Player, here: Path) -> None:
+    """What was read once is not read again: keeping the hundredth step takes no longer than the first."""
+    (here / "own.toml").write_bytes(content(load("whitworth"), here))
+    opened(player, here, '[[step]]\nscene = "own.toml"\n')
+    (here / "own.toml").unlink()
+    keep(player, "second")
+    assert (here / "mine.toml").read_text().count("[[step]]") == 2
+    player.press(pygame.K_PAGEUP)
+    assert player.state.lesson == (1, 2)
 
 
 def test_a_lesson_that_is_dropped_on_the_window_is_shown(player: Player, here: Path) -> None:
