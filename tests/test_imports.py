@@ -83,7 +83,7 @@ THIRD_PARTIES = {
     "play": {"numpy"},
     "workshop": {"numpy", "ezdxf", "manifold3d"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg"},
-    "bench": {"numpy", "mpmath", "pylinkage", "scipy", "matplotlib"},
+    "bench": {"numpy", "mpmath", "matplotlib"},
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),
     "notebook": {"numpy"},

@@ -294,7 +294,7 @@ def test_the_chart_of_speed_and_error_is_that_of_the_manual_s_table() -> None:
     shown = PAGES["measurements"].partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0]
     with Image.open(ROOT / "recordings" / "speed-vs-error.png") as chart:
         assert chart.size == drawing.SIZE
-        assert chart.info[drawing.TABLE] == shown, "make both anew: linkanim bench --markdown"
+        assert chart.info[drawing.TABLE] == shown, "make both anew: tests/bench/peers.py"
 
 
 def words_of(page: str) -> str:

@@ -12,20 +12,17 @@ from linkanim.errors import BadInput
 
 CHART = "speed-vs-error.png"
 
-NEEDED = ("mpmath", "pylinkage", "numba", "scipy", "matplotlib")
-"""The packages that only the comparison needs."""
+NEEDED = ("mpmath", "matplotlib")
+"""The packages that only this command needs."""
 Progress = Callable[[int, int], None]
 
 
 def run(options: Namespace, progress: Progress | None = None) -> None:
-    """Measure speed against error and print it.
+    """Measure this solver's speed and error, and print it beside what was recorded of other methods.
 
     BadInput where the extra is not installed, the folder cannot be one or the chart's name in it is taken,
     before anything is measured.
     """
-    if options.path:
-        _run_paths(options, progress)
-        return
     require_extra()
     from linkanim.bench import drawing, result
     from linkanim.manifest import single
@@ -33,28 +30,17 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     chart = made_folder(options.into) / CHART
     single(chart).refuse_foreign([CHART])
 
-    found = result.run(progress)
+    found = result.beside_recorded(result.run(progress))
     form = result.as_json if options.json else result.as_markdown if options.markdown else result.as_text
     print(form(found))
     print(drawing.draw(found, chart), file=sys.stderr)
 
 
-def _run_paths(options: Namespace, progress: Progress | None) -> None:
-    """Measure the answers to paths, and print them; BadInput without scipy, whose search is compared."""
-    require_extra(needed=("scipy",))
-    from linkanim.bench import paths
-    from linkanim.bench.result import this_machine
-
-    rows = paths.run(options.seconds, paths.CURVES, progress)
-    form = paths.as_json if options.json else paths.as_markdown if options.markdown else paths.as_text
-    print(form(rows, this_machine().line))
-
-
-def require_extra(found: Callable[[str], object] = find_spec, needed: tuple[str, ...] = ()) -> None:
+def require_extra(found: Callable[[str], object] = find_spec) -> None:
     """Raise BadInput where a package of the extra is not installed, naming what installs it."""
-    missing = [name for name in needed or NEEDED if found(name) is None]
+    missing = [name for name in NEEDED if found(name) is None]
     if missing:
         raise BadInput(
-            f"bench compares with {', '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "
+            f"bench works with {' and '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "
             'installed; install with: pip install "linkanim[bench]"'
         )

@@ -4,6 +4,7 @@ Its parts, in reading order:
 
 - Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 - The result of a run of the benchmark: rows of speed and error.
+- What was recorded of other methods, for the rows beside.
 - A result as a table for the terminal or the manual, and as JSON.
 """
 
@@ -14,8 +15,9 @@ import os
 import platform
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from datetime import date
+from importlib.resources import files
 from pathlib import Path
 from statistics import median
 from typing import Any, TypeVar
@@ -203,6 +205,45 @@ def _cpu() -> str:
     return next(named, "") or platform.processor() or platform.machine()
 
 
+# What was recorded of other methods, for the rows beside.
+
+RECORDED = "recorded"
+_OURS = ("linkanim", "synthesis")
+
+
+def beside_recorded(result: Result) -> Result:
+    """Return a result of this solver with the rows that the manual's table has of other methods."""
+    page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
+    table = page.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0]
+    poses = {row.mechanism: (row.easy.poses, row.hard.poses) for row in result.rows}
+    rows, mechanism = list(result.rows), ""
+    for line in table.splitlines():
+        name, *cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if name.startswith("**"):
+            mechanism = name.strip("*")
+        elif mechanism in poses and cells and not name.startswith(_OURS):
+            rows.append(_recorded(mechanism, name, cells, poses[mechanism]))
+    return replace(result, rows=tuple(rows))
+
+
+def _recorded(mechanism: str, name: str, cells: Sequence[str], poses: tuple[int, int]) -> Measured:
+    """Return a row of the manual's table; an error above 1 is infinite."""
+    times = [float(cell.replace(",", "")) if cell else None for cell in cells[:2]]
+    errors = [
+        [math.inf if one == "> 1" else float(one) for one in cell.split(", ")] if cell[:4] != "none" else []
+        for cell in cells[2:4]
+    ]
+    wrong, missing = (int(cell.replace(",", "")) for cell in cells[4:])
+    easy, hard = ([*found, math.nan, math.nan, math.nan] for found in errors)
+    scores = (
+        Score(poses[0], easy[0], easy[1], easy[2], 0, 0),
+        Score(poses[1], hard[0], hard[1], hard[2], wrong, missing),
+    )
+    assert times[0] is not None
+    method = f"{name} ({RECORDED})"
+    return Measured(mechanism, name, method, RECORDED, times[0], times[1], *scores, {})
+
+
 # A result as a table for the terminal or the manual, and as JSON.
 
 TITLES = (
@@ -219,6 +260,8 @@ NOTE = (
     "all joints: positions in longest links, rates in longest links or the pose's largest rate, of poses on "
     "the right closure; wrong closure and NaN: of {poses} hard poses."
 )
+
+_BESIDE = "What is recorded was measured once, on the machine that `linkanim manual measurements` names."
 
 
 def as_text(result: Result) -> str:
@@ -243,7 +286,9 @@ def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:
 
 def _note(result: Result) -> str:
     poses = {row.mechanism: row.hard.poses for row in result.rows}
-    return NOTE.format(poses=", ".join(f"{count:,} ({name})" for name, count in poses.items()))
+    note = NOTE.format(poses=", ".join(f"{count:,} ({name})" for name, count in poses.items()))
+    beside = any(row.source == RECORDED for row in result.rows)
+    return f"{note} {_BESIDE}" if beside else note
 
 
 def _line(row: Measured) -> Sequence[str]:

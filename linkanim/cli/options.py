@@ -957,10 +957,6 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _flag("--json", "print one object with every case of every method"),
             _flag("--markdown", "print the table as it is in the manual"),
         ),
-        _flag("--path", "measure what `linkanim path` finds, instead of speed and error"),
-        _value(
-            "--seconds S", positive, "how long its global search may take, in seconds (default: 600)", 600.0
-        ),
         _value(
             "--into FOLDER", Path, "where speed-vs-error.png goes (default: recordings)", Path("recordings")
         ),

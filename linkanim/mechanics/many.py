@@ -24,7 +24,7 @@ from linkanim.mechanics.arithmetic import FormGraph, Slope, Value, are_inputs, k
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import MOTOR, Linkage
 from linkanim.mechanics.measures import DERIVATIVE_OF, LEVER
-from linkanim.mechanics.motion import Layout, laid_out, walked_rows
+from linkanim.mechanics.motion import ResultPlaces, laid_out, walked_rows
 from linkanim.mechanics.program import Array, Batch, Bools, batch
 from linkanim.mechanics.search import around
 from linkanim.mechanics.solver.assembly import find_loops, runs_back, side_of, turns_to_return
@@ -50,7 +50,7 @@ class Program(NamedTuple):
     """
 
     run: Batch
-    places: Layout | None = None
+    places: ResultPlaces | None = None
     apart: bool = False
     sines: Batch | None = None
     phases: Array = np.empty(0)
@@ -94,14 +94,14 @@ class LinkageForm:
 
     def solved(
         self, lengths: Sequence[Array], phases: Array, rates: tuple[float, float], derivatives: int
-    ) -> tuple[Layout | None, Array, Bools]:
+    ) -> tuple[ResultPlaces | None, Array, Bools]:
         """Return where results lie, the results (rows, N), and which linkages are left to themselves (N,).
 
         `lengths` are arrays (N,), as is `phases`. What has no pose is NaN. The layout is None where none
         was solved.
         """
         programs = self.programs.setdefault(derivatives, [])
-        places: Layout | None = None
+        places: ResultPlaces | None = None
         whole, left = np.empty((0, len(phases))), np.zeros(len(phases), dtype=bool)
         rows, n = np.arange(len(phases)), 0
         while self.uniform and len(rows) and n < MOST:

@@ -64,7 +64,7 @@ POINTS = VECTORS[:3]
 Pair = tuple[float, float]
 
 
-class Layout(NamedTuple):
+class ResultPlaces(NamedTuple):
     """Where quantities by kind and name lie in rows of results, those of vectors before those of numbers.
 
     A place counts vectors, each of two rows, or the numbers behind them; a pin's is its pair. `rated` are the
@@ -78,7 +78,7 @@ class Layout(NamedTuple):
 
 def laid_out(
     rows: Mapping[str, Mapping[str, tuple[Value, ...]]], pins: Mapping[str, Pair]
-) -> tuple[Layout, list[Value]]:
+) -> tuple[ResultPlaces, list[Value]]:
     """Return where quantities by kind and name lie, and what the rows hold.
 
     `pins` gives where pins stand; their rates are zero.
@@ -96,10 +96,10 @@ def laid_out(
             vectors += kind in VECTORS
             outputs.extend(components)
             rated.extend([kind == LEVER or ORDER[kind] > 0] * len(components))
-    return Layout(places, vectors, np.array(rated, bool)), outputs
+    return ResultPlaces(places, vectors, np.array(rated, bool)), outputs
 
 
-def arrays(layout: Layout, results: Array, shape: tuple[int, ...], kind: str) -> dict[str, Array]:
+def arrays(layout: ResultPlaces, results: Array, shape: tuple[int, ...], kind: str) -> dict[str, Array]:
     """Return the quantities of a kind by name: views of the results, and of the pairs of pins.
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
@@ -371,7 +371,7 @@ class Motion(Derived[Array, Array]):
     """
 
     asked: Asked
-    _layout: Layout
+    _layout: ResultPlaces
     _results: Array
 
     def __init__(self, mechanism: Mechanism, asked: Asked, out: Array | None = None) -> None:
@@ -661,7 +661,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[tuple[Variant, int, tuple[str, ...] | None], tuple[Batch, Layout]]:
+    def _programs(self) -> dict[tuple[Variant, int, tuple[str, ...] | None], tuple[Batch, ResultPlaces]]:
         return {}
 
     def pose(
@@ -774,7 +774,7 @@ class Mechanism:
                 raise ValueError(f"out= is an array of floats that can be written, in C's order: {wanted}")
         return Motion(self, asked, out)
 
-    def solved(self, asked: Asked, out: Array | None = None) -> tuple[Layout, Array]:
+    def solved(self, asked: Asked, out: Array | None = None) -> tuple[ResultPlaces, Array]:
         """Return what is asked for in rows, and where it lies there."""
         program, layout = self.program(asked.variant, asked.derivatives, asked.joints)
         path = self.assembly.path
@@ -801,7 +801,7 @@ class Mechanism:
 
     def program(
         self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None = None
-    ) -> tuple[Batch, Layout]:
+    ) -> tuple[Batch, ResultPlaces]:
         """Return the program over arrays of up to so many derivatives, and where its results lie.
 
         Of `joints`, if any are named, and of nothing else; pins then have rows, too.
@@ -814,7 +814,7 @@ class Mechanism:
 
     def _compiled(
         self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None
-    ) -> tuple[Batch, Layout]:
+    ) -> tuple[Batch, ResultPlaces]:
         names, rows = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
         varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}

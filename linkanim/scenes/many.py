@@ -23,7 +23,7 @@ from linkanim.mechanics.arithmetic import Value
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.many import LinkageForm
 from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS, between, direction
-from linkanim.mechanics.motion import Layout, Pose, arrays, laid_out, read_only
+from linkanim.mechanics.motion import Pose, ResultPlaces, arrays, laid_out, read_only
 from linkanim.mechanics.program import Array
 from linkanim.scenes.editing import Number, dimensions, numbers, with_dimensions, with_values
 from linkanim.scenes.files import load
@@ -138,7 +138,7 @@ def _with(scene: Scene, values: Mapping[Key, float]) -> Scene | None:
     return None
 
 
-def _layout_of(pose: Pose, derivatives: int) -> tuple[Layout, int]:
+def _layout_of(pose: Pose, derivatives: int) -> tuple[ResultPlaces, int]:
     """Return where the quantities of a pose lie in rows, and how many rows these are."""
     rows = {}
     for kind in (*VECTORS, *NUMBERS):

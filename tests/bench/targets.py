@@ -9,6 +9,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from peers import entries
+
 from linkanim.bench.questions import FOUR_BAR
 from linkanim.bench.result import Measured, run
 from linkanim.export import columns
@@ -95,4 +97,4 @@ def target_lines(targets: Sequence[Target]) -> list[Sequence[str]]:
 
 
 if __name__ == "__main__":
-    print(columns(target_lines(targets(run().rows))))
+    print(columns(target_lines(targets(run(rows=entries).rows))))

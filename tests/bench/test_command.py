@@ -29,15 +29,15 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(results, "run", lambda progress: result())
 
 
-@pytest.mark.parametrize("missing", ["mpmath", "pylinkage", "numba", "scipy"])
+@pytest.mark.parametrize("missing", ["mpmath", "matplotlib"])
 def test_what_is_missing_is_named_with_the_way_to_get_it(missing: str) -> None:
     with pytest.raises(BadInput, match=rf'{missing}, which is not .*pip install "linkanim\[bench\]"'):
         command.require_extra(lambda name: None if name == missing else object())
 
 
 def test_all_that_is_missing_is_named_at_once() -> None:
-    with pytest.raises(BadInput, match="numba, scipy, which are not installed"):
-        command.require_extra(lambda name: None if name in ("numba", "scipy") else object())
+    with pytest.raises(BadInput, match="mpmath and matplotlib, which are not installed"):
+        command.require_extra(lambda name: None)
 
 
 def test_without_the_extra_bench_ends_in_one_line(

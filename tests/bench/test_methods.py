@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import peers
 import pytest
 
 from linkanim.bench import methods
@@ -25,7 +26,7 @@ from linkanim.bench.reference import Answer, Solve, answer, score
 
 EPS = 2.0**-52
 HARD = [(mechanism, case) for mechanism in MECHANISMS for case in mechanism.hard]
-Read = Callable[[methods.Samples, Question], Orders]
+Read = Callable[[peers.Samples, Question], Orders]
 
 
 @cache
@@ -40,7 +41,7 @@ def thinned(case: Case) -> Answer:
 
 
 def read(way: Read) -> Solve:
-    return lambda question: way(methods.table_of(question), question)
+    return lambda question: way(peers.table_of(question), question)
 
 
 # The method, and the range of its worst error in steps of one degree, in longest links.
@@ -51,14 +52,14 @@ def read(way: Read) -> Solve:
     [
         pytest.param(methods.batch, 0, 16 * EPS, id="linkanim, batch"),
         pytest.param(methods.single, 0, 16 * EPS, id="linkanim, single"),
-        pytest.param(methods.rated(methods.closed(methods.half_angle_dyad)), 0, 1e-13, id="half-angle"),
-        pytest.param(methods.rated(methods.closed(circle_dyad)), 0, 1e-13, id="circles"),
-        pytest.param(methods.rated(methods.newton(1)), 1e-6, 1e-3, id="newton 1"),
-        pytest.param(methods.rated(methods.newton(2)), 1e-12, 1e-7, id="newton 2"),
-        pytest.param(methods.rated(methods.newton(3)), 0, 1e-13, id="newton 3"),
-        pytest.param(methods.runge_kutta, 1e-12, 1e-8, id="rk4"),
-        pytest.param(read(methods.linear), 1e-6, 1e-4, id="table, linear"),
-        pytest.param(read(methods.cubic), 1e-11, 1e-8, id="table, cubic"),
+        pytest.param(peers.rated(peers.closed(peers.half_angle_dyad)), 0, 1e-13, id="half-angle"),
+        pytest.param(peers.rated(peers.closed(circle_dyad)), 0, 1e-13, id="circles"),
+        pytest.param(peers.rated(peers.newton(1)), 1e-6, 1e-3, id="newton 1"),
+        pytest.param(peers.rated(peers.newton(2)), 1e-12, 1e-7, id="newton 2"),
+        pytest.param(peers.rated(peers.newton(3)), 0, 1e-13, id="newton 3"),
+        pytest.param(peers.runge_kutta, 1e-12, 1e-8, id="rk4"),
+        pytest.param(read(peers.linear), 1e-6, 1e-4, id="table, linear"),
+        pytest.param(read(peers.cubic), 1e-11, 1e-8, id="table, cubic"),
     ],
 )
 def test_a_method_is_right_on_the_easy_cycle(
@@ -87,11 +88,11 @@ def test_a_row_tells_of_ten_thousand_different_linkages() -> None:
 
 
 @pytest.mark.parametrize(
-    "solve", [methods.pylinkage_fast(1), methods.pylinkage_fast(4), methods.pylinkage_step, methods.fsolve]
+    "solve", [peers.pylinkage_fast(1), peers.pylinkage_fast(4), peers.pylinkage_step, peers.fsolve]
 )
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda mechanism: mechanism.name)
 def test_other_packages_are_right_on_the_easy_cycle(solve: Solve, mechanism: CaseSet) -> None:
-    pytest.importorskip("scipy" if solve is methods.fsolve else "pylinkage")
+    pytest.importorskip("scipy" if solve is peers.fsolve else "pylinkage")
     found = score(solve, answer(replace(mechanism.easy, inputs=degrees(0, 20))))
     assert (found.wrong, found.nan) == (0, 0)
     assert found.error < 1e-9
@@ -114,13 +115,13 @@ def test_this_solver_is_exact_on_the_hard_cases(mechanism: CaseSet, case: Case) 
 )
 def test_a_change_point_costs_the_closed_forms_half_the_poses(case: Case) -> None:
     posed = thinned(case)
-    for close in (methods.half_angle_dyad, circle_dyad):
-        found = score(methods.rated(methods.closed(close)), posed)
+    for close in (peers.half_angle_dyad, circle_dyad):
+        found = score(peers.rated(peers.closed(close)), posed)
         assert found.wrong > found.poses / 3
 
 
 # Both bars on the line of centres: no velocity is determined.
-SINGULAR = {"newton": methods.rated(methods.newton(1)), "rk4": methods.runge_kutta}
+SINGULAR = {"newton": peers.rated(peers.newton(1)), "rk4": peers.runge_kutta}
 
 
 @pytest.mark.parametrize("solve", SINGULAR.values(), ids=SINGULAR)

@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import replace
 from importlib.resources import files
+from math import inf
 from pathlib import Path
 
 import pytest
@@ -64,6 +65,24 @@ def test_the_manual_shows_such_a_table_and_counts_the_hard_poses() -> None:
     for mechanism in MECHANISMS:
         assert any(line.startswith(f"| **{mechanism.name}** |") for line in shown)
         assert f"{sum(len(case.inputs) for case in mechanism.hard):,} ({mechanism.name})" in shown[-1]
+
+
+def test_beside_what_is_measured_stands_what_the_manual_s_table_has_of_other_methods() -> None:
+    found = report.beside_recorded(result())
+    assert found.rows[: len(result().rows)] == result().rows
+    recorded = {(one.mechanism, one.key): one for one in found.rows[len(result().rows) :]}
+    assert {mechanism for mechanism, _ in recorded} == {"four-bar", "press"}, "those that are measured"
+    assert not [name for _, name in recorded if "linkanim" in name]
+    circles, newton = recorded["four-bar", "circle intersection"], recorded["press", "Newton, 1 iteration"]
+    page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
+    # as the manual has it, but for the name
+    assert report.as_markdown(replace(result(), rows=(circles,))).splitlines()[3] == next(
+        line for line in page.splitlines() if line.startswith("| circle intersection |")
+    ).replace("circle intersection", "circle intersection (recorded)")
+    assert newton.ns_derivatives is not None
+    assert circles.hard.velocity_error == inf
+    assert "recorded was measured once" in report.as_text(found)
+    assert "recorded" not in report.as_text(result())
 
 
 def test_each_method_of_the_manual_s_table_has_a_colour_of_its_own_in_the_chart() -> None:

@@ -28,7 +28,7 @@ DEFAULTS: list[tuple[list[str], dict[str, Any]]] = [
     (["scenes"], {}),
     (["check"], {}),
     (["gallery"], {"into": Path("recordings")}),
-    (["bench"], {"into": Path("recordings"), "seconds": 600.0}),
+    (["bench"], {"into": Path("recordings")}),
 ]
 
 

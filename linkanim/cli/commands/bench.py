@@ -1,4 +1,4 @@
-"""`linkanim bench`: speed against error, or the results of `linkanim path`."""
+"""`linkanim bench`: speed against error."""
 
 from __future__ import annotations
 

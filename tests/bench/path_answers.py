@@ -1,4 +1,6 @@
-"""Measure `linkanim path` on random coupler curves, published problems, and shapes that no four-bar traces.
+"""`python tests/bench/path_answers.py [SECONDS]` measures `linkanim path` and prints the manual's table.
+
+It is asked for random coupler curves, published problems, and shapes that no four-bar traces.
 
 For the shapes it is compared with a global search in a given time: scipy's differential evolution over the
 same parameters, in which each point is assigned to one of 240 places of the curve, in their order.
@@ -9,15 +11,15 @@ Published figures are sums of squared distances: the eighteen points are those o
 from __future__ import annotations
 
 import math
+import sys
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.result import Progress
-from linkanim.export import columns, json_text, markdown
-from linkanim.frozen import NamedTuple
+from linkanim.bench.result import this_machine
+from linkanim.export import markdown
 from linkanim.synthesis.curves import drawn
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
 from linkanim.synthesis.path import path
@@ -46,7 +48,7 @@ class PathRow(NamedTuple):
     seconds: float
 
 
-def run(seconds: float, curves: int, progress: Progress | None = None) -> list[PathRow]:
+def run(seconds: float, curves: int) -> list[PathRow]:
     """Measure all problems, with `seconds` of processor time for the global search of each shape."""
     path(LINE, count=1)  # the atlas is made
     jobs: list[Callable[[], PathRow]] = [
@@ -55,12 +57,7 @@ def run(seconds: float, curves: int, progress: Progress | None = None) -> list[P
         lambda: _published("6 points of a line", LINE, 9e-28),
         *((lambda name=name: _shape(name, seconds)) for name in SHAPES),
     ]
-    rows = []
-    for number, job in enumerate(jobs):
-        rows.append(job())
-        if progress:
-            progress(number + 1, len(jobs))
-    return rows
+    return [job() for job in jobs]
 
 
 def _timed(points: Any, **options: Any) -> tuple[Any, float]:
@@ -179,11 +176,5 @@ def _cells(rows: list[PathRow]) -> Iterator[tuple[str, ...]]:
     return ((*row[:4], f"{row.seconds:.2f}") for row in rows)
 
 
-def as_text(rows: list[PathRow], machine: str) -> str:
-    """Return the machine and the table in columns."""
-    return f"{machine}\n\n{columns([TITLES, *_cells(rows)])}"
-
-
-def as_json(rows: list[PathRow], machine: str) -> str:
-    """Return one object."""
-    return json_text({"machine": machine, "rows": [row._asdict() for row in rows]}, indent=2)
+if __name__ == "__main__":
+    print(as_markdown(run(float([*sys.argv, "600"][1]), CURVES), this_machine().line))
