@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Literal, Self, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
@@ -346,12 +346,29 @@ class Browsing:
     top: int = 0
     own: tuple[OwnFile, ...] = ()
 
+    has_new: ClassVar[bool] = True
+    """Whether an empty sheet stands first."""
+
+    @property
+    def heading(self) -> str:
+        """What stands over it."""
+        return "Mechanisms"
+
+    @property
+    def nothing(self) -> str:
+        """What is said where the sieve leaves nothing."""
+        return "no title or chapter contains that"
+
+    def texts(self, place: int) -> tuple[str, str, str]:
+        """Return the texts by which the mechanism at a place is found: its name, its title, its chapter."""
+        return searched(self.entries[place])
+
     @cached_property
     def found(self) -> tuple[int, ...]:
         """The places of the mechanisms and files that have all the sieve's words, the best ones first."""
         files = ((one.title, one.written, MINE) for one in self.own)
-        texts = ((NEW_TITLE,), *map(searched, self.entries), *files)
-        return sifted(dict(enumerate(texts, start=NEW)), self.sieve)
+        texts = dict(enumerate((*map(self.texts, range(len(self.entries))), *files)))
+        return sifted({NEW: (NEW_TITLE,), **texts} if self.has_new else texts, self.sieve)
 
     def file_at(self, place: int) -> OwnFile | None:
         """Return the file at a place; None where there is a mechanism, or nothing."""

@@ -25,7 +25,7 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Type, hyphened, letters
 from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
-from linkanim.scenes import chapter_of, load, titles
+from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -52,8 +52,6 @@ _AT_ONCE = 5
 _BESIDE_A_NEW_ONE = 2
 """The number of other pictures that move in a frame in which a new picture is made."""
 _PER_SECOND = 60
-_NONE = "no title or chapter contains that"
-_TITLE = "Mechanisms"
 _UNREAD = "cannot be read"
 
 
@@ -176,8 +174,7 @@ def _chapter(browsing: Browsing, place: int) -> str:
         return next((_chapter(browsing, n) for n in browsing.found if n != NEW), MINE)
     if browsing.file_at(place):
         return MINE
-    entry = browsing.entries[place]
-    name = (chapter_of(entry) or "") if isinstance(entry, str) else entry.chapter or "opened"
+    name = browsing.texts(place)[2] or "opened"
     return name[:1].upper() + name[1:]
 
 
@@ -292,7 +289,7 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
     typed = f"{browsing.sieve}_" if browsing.sieve else ""
-    words, colour = (typed, board.theme.velocity) if typed else (_TITLE, board.theme.ink)
+    words, colour = (typed, board.theme.velocity) if typed else (browsing.heading, board.theme.ink)
     text, x, y = found.text, found.room.x, 0.7 * found.text
     board.write(still, words, (x, y), size=text, colour=colour, strong=True)
     count = (
@@ -303,13 +300,12 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
     hint = count if browsing.sieve else f"type to filter   {count}"
     board.write(still, hint, (found.room.right, y), size=text, colour=board.theme.dim, anchor="right")
     if not browsing.found:
-        board.write(still, _NONE, (x, found.room.y), size=text, colour=board.theme.warning)
+        board.write(still, browsing.nothing, (x, found.room.y), size=text, colour=board.theme.warning)
     for name, at in found.headings:
         board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
     width = max(1.5 * board.layout.unit, 1.0)
     outer, inner = ([frame_of(cell, board, by) for cell in found.cells.values()] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
-    named = titles()
     for n, cell in found.cells.items():
         if n == NEW:
             paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
@@ -318,8 +314,7 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
         if file := browsing.file_at(n):
             _title(still, board, file.title, cell, found, file.written)
             continue
-        entry = browsing.entries[n]
-        _title(still, board, named[entry] if isinstance(entry, str) else entry.title, cell, found)
+        _title(still, board, browsing.texts(n)[1], cell, found)
     still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
     if found.track:
         paint(still, _scroll_bar(board, found, found.track))

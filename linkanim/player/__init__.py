@@ -22,6 +22,7 @@ From the ground up; a module imports from those before it only:
     stored     what tapes and lessons have stored: a scene, a look
     lesson     a lesson's steps and their file; a mode: the line for a caption
     shelving   a mode: the shelf
+    reassembling  a mode: all closures of the scene, one of which becomes the scene
     pencil     a mode: a stroke is drawn, and linkages that follow it come
     posing     a mode: poses of a body are set down, and linkages that pass them come
     making     the steps of a construction; a mode: layers in which a scene can be made

@@ -108,7 +108,8 @@ _FARTHEST = 1e15
 _OFF_THE_SHEET = frozenset(
     {
         *("edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers", "pencil", "own_trace"),
-        *("poses", "mechanism", "select", "put", "closure", "reset", "returns", "stage"),
+        *("poses", "mechanism", "select", "put", "closure", "closures", "take_closure", "reset", "returns"),
+        "stage",
     }
 )
 """Actions for which the sheet is left first."""

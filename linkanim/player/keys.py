@@ -180,7 +180,11 @@ KEYS: Table = {
         KeyRow("F4", "set down poses of a body", on("f4", "poses")),
         KeyRow("F7 (Shift: back)", "constructions, step by step", _STEPS),
         KeyRow(", .", "along the family that it is of", _DIAL),
-        KeyRow("B (Shift: ghost)", "assembly: the other closure", on("b", "closure") + _of_look("ghost")),
+        KeyRow(
+            "B (Shift: ghost; Ctrl)",
+            "assembly: other closure; all",
+            on("b", "closure") + _of_look("ghost") + on("ctrl+b", "closures"),
+        ),
         KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("undo", "redo")),
     ),
     "keep": (
@@ -439,6 +443,7 @@ _APART: Mapping[Action, str] = {
     Action("pencil"): "draw a path to follow",
     Action("own_trace"): "draw on from this linkage's curve",
     Action("closure"): "the other closure",
+    Action("closures"): "all closures, to choose one",
     Action("ghost"): "the other closure, faintly",
     Action("undo"): "undo",
     Action("redo"): "redo",

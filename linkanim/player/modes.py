@@ -14,6 +14,7 @@ from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
 from linkanim.player.pencil import Pencil
 from linkanim.player.posing import Posing
+from linkanim.player.reassembling import OpenClosures
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import Game, Mode, Resolver
 from linkanim.player.taking import TakeDialog
@@ -23,6 +24,7 @@ MODES: tuple[type[Mode], ...] = (
     Listing,
     Finder,
     OpenShelf,
+    OpenClosures,
     OpenSheet,
     SheetNumbers,
     Pencil,

@@ -102,8 +102,7 @@ def _put_chosen(window: Outside, _: Value) -> Iterator[Action]:
 def _put(window: Outside, place: Value) -> Iterator[Action]:
     """Yield the action that shows what is at a place: a mechanism, or a user's file."""
     shelf = window.state.of(OpenShelf)
-    file = shelf.file_at(place) if shelf and isinstance(place, int) else None
-    yield from (Action("shelf"), Action("open_file", file.name)) if file else (Action("put", place),)
+    yield from shelf.takes(place) if shelf and isinstance(place, int) else (Action("put", place),)
 
 
 def _opened(window: Outside, _: Value) -> Iterator[Action]:
@@ -202,6 +201,11 @@ class OpenShelf(Browsing, Mode):
         **{"move": _moved, "row": _row, "scroll": _scroll},
     }
     gives_way = True
+
+    def takes(self, place: int) -> tuple[Action, ...]:
+        """Return the actions that show what is at a place: a mechanism, or a user's file."""
+        file = self.file_at(place)
+        return (Action("shelf"), Action("open_file", file.name)) if file else (Action("put", place),)
 
     def typing(self, state: State) -> bool:
         """Return whether the shelf is filtered."""

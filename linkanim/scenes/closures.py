@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import product
@@ -65,6 +65,16 @@ def closures(scene: Scene, progress: Callable[[int, int], None] | None = None) -
                 number = next(curves, len(found) + 1) if one.trace else None
                 found.append(SceneClosure(one, sides, number))
     return tuple(found)
+
+
+def described(found: Sequence[SceneClosure], place: int) -> tuple[str, ...]:
+    """Return words for the closure at a place: number, how it is put together, input, class, curve."""
+    one, number = found[place], place + 1
+    sides = ", ".join(f"{joint} {side}" for joint, side in one.sides.items())
+    words = one.scene.info.input_words.partition(", and ")[0]
+    curve = "" if one.curve is None else "its own" if one.curve == number else f"that of {one.curve}"
+    pose = "as given" if number == 1 else "in another pose"
+    return str(number), sides or pose, words, one.scene.info.class_name, curve
 
 
 def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[Scene, dict[str, str]]]:

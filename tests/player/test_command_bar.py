@@ -60,6 +60,7 @@ ENTERED: dict[str, tuple[Action | str, ...]] = {
     "build": ("build",),
     "numbers": ("build_on", "numbers"),
     "layers": ("layers",),
+    "closures": ("closures",),
     "game": (Action("play", "title"),),
 }
 in_every_mode = pytest.mark.parametrize("mode", ENTERED)

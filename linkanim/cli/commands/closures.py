@@ -15,7 +15,7 @@ from linkanim.export import columns, json_text
 from linkanim.manifest import Output, checked_output
 from linkanim.recorder.recording import SUFFIXES
 from linkanim.scenes import load
-from linkanim.scenes.closures import SceneClosure, closures
+from linkanim.scenes.closures import SceneClosure, closures, described
 from linkanim.synthesis.answers import write
 
 _TITLES = ("closure", "put together", "input", "class", "curve")
@@ -33,7 +33,7 @@ def run(options: Namespace) -> None:
     if options.json:
         print(json_text([_object(one, n) for n, one in enumerate(found, start=1)], indent=2))
     else:
-        rows = [(str(n), *_cells(one, n, found)) for n, one in enumerate(found, start=1)]
+        rows = [described(found, n) for n in range(len(found))]
         print(columns([_TITLES, *rows]))
     for path in paths:
         print(path)
@@ -63,14 +63,6 @@ def _draw(found: Sequence[SceneClosure], picture: Output) -> None:
         with bar(unit=" frames") as progress:
             print(record_sheet(scenes, picture, progress).summary, file=sys.stderr)
     print(picture.path)
-
-
-def _cells(one: SceneClosure, number: int, found: Sequence[SceneClosure]) -> tuple[str, ...]:
-    sides = ", ".join(f"{joint} {side}" for joint, side in one.sides.items())
-    info = one.scene.info
-    words = info.input_words.partition(", and ")[0]
-    curve = "" if one.curve is None else "its own" if one.curve == number else f"that of {one.curve}"
-    return sides or ("as given" if number == 1 else "in another pose"), words, info.class_name, curve
 
 
 def _object(one: SceneClosure, number: int) -> dict[str, object]:
