@@ -294,7 +294,7 @@ class Picture:
 
     def _framed(self) -> Iterator[Group]:
         """Yield the ground of the slots beside the stage, where a zoomed linkage may run into them."""
-        if not self._overruns:
+        if not (self.look.framed or self.held):
             return
         stage, (wide, high) = self.layout.stage, self.size
         left = self.layout.room.x if self.layout.room else 0.0

@@ -156,6 +156,8 @@ def test_charts_and_polygons_come_in_with_the_view_and_cut_nothing_off(
     *way, last = gliding(name, size, *actions)
     assert len(way) == MOVE_FRAMES
     for picture in (*way, last):
+        drawn = picture.groups(picture.scene.pose(1.0))
+        assert not [group for group in drawn if group.name == "slots" and group.layers]
         right, bottom = picture.edge
         if scene := parts(picture, scene=True):
             _, end = extent(scene)
