@@ -322,9 +322,9 @@ def hand(shown: BuildShown, setting: DrawSetting, names: Sequence[Caption] = ())
     yield _grid_words(shown, setting)
     yield from _chosen(shown, setting)
     yield Group("draft-names", (), names, over=True)
-    for one in (shown.panel, shown.offers):
+    for kind, one in (("numbers", shown.panel), ("offers", shown.offers)):
         if one:
-            yield from rows(one, setting)
+            yield from rows(kind, one, setting)
     if shown.rubber:
         yield from _rubber(shown.rubber, setting)
     if shown.snap:

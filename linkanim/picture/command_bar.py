@@ -11,6 +11,7 @@ import pygame
 from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.command_icons import COMMAND_ICONS
+from linkanim.picture.items import Target
 from linkanim.picture.layout import HEAD_OF_CHART, Gauge, Layout
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.picture.raster import Layer, Loop, paint
@@ -90,15 +91,6 @@ def _row(
     return cells
 
 
-def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> int | None:
-    """Return the number of the button under a pixel; -1 on the bar between buttons, None off the bar."""
-    cells = bar_cells(layout, buttons)
-    frames = _frames(layout, buttons, cells)
-    if not any(frame.holds(x, y) for frame, _ in frames):
-        return None
-    return next((n for n, cell in enumerate(cells) if cell and cell.holds(x, y)), -1)
-
-
 def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
     """Return the rectangle of the bar at the foot; None where there is none."""
     return next(iter(bar_places(layout, bar)), None)
@@ -110,11 +102,9 @@ def bar_places(layout: Layout, bar: CommandBar | None) -> list[Rect]:
     return [frame for frame, _ in frames]
 
 
-def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:
-    """Return how far along a slider a pixel is, 0 to 1, even where the slider is gone or has no room."""
-    cells = bar_cells(layout, buttons)
-    cell = cells[number] if number < len(cells) else None
-    begin, end = _rail(cell) if cell else (0.0, 1.0)
+def share_at(cell: Rect, x: float) -> float:
+    """Return how far along the slider in a cell a pixel is, 0 to 1."""
+    begin, end = _rail(cell)
     return min(max((x - begin) / max(end - begin, 1.0), 0.0), 1.0)
 
 
@@ -165,10 +155,12 @@ class BarPrinter:
         self._kept: tuple[object, list[tuple[Rect, pygame.Surface, bool]]] | None = None
         self._faces: dict[_Sized, pygame.Surface] = {}
 
-    def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None) -> None:
-        """Draw the bar over the picture; the caption names the command under the mouse."""
+    def draw(
+        self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None
+    ) -> list[Target]:
+        """Draw the bar over the picture, and return its places; the caption names the pointed command."""
         if bar is None or not bar.buttons:
-            return
+            return []
         if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
             before = self._board or Board(layout, self._type, theme)
             if before.theme != theme:
@@ -182,6 +174,8 @@ class BarPrinter:
         for frame, sheet, _ in self._kept[1]:
             sheet.set_alpha(round(255 * bar.eighths / 8))
             surface.blit(sheet, (round(frame.x), round(frame.y)))
+        places = (Target("bar", frame) for frame, *_ in self._kept[1])
+        return [*places, *(Target("button", cell, n) for n, cell in enumerate(cells) if cell)]
 
     def _drawn(
         self, board: Board, frame: Rect, cells: Sequence[Rect | None], bar: CommandBar

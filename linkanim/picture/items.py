@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 import pygame
 
@@ -12,6 +12,24 @@ from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import cut
 from linkanim.picture.text import Anchor, Type
 from linkanim.picture.view import Rect
+
+
+class Target(NamedTuple):
+    """A place that can be clicked, and its value.
+
+    It is a "list", a "row" with its number, the column of "boxes", the "track" of a scroll bar with the count
+    of rows, the "help", a "line" of it with its keys, a "toast"; the "bar", a "button" of it with its number;
+    a "tool", or an "answer", with its number; the "dial" and the "slider", with the rail of their knob; a row
+    among the "numbers" or the "offers" on a sheet, with its number, −1 for their title.
+    """
+
+    kind: str
+    place: Rect
+    value: Any = None
+
+    def moved(self, x: float, y: float) -> Target:
+        """Return the target by so much further right and down."""
+        return self._replace(place=self.place._replace(x=self.place.x + x, y=self.place.y + y))
 
 
 class Underlay(Protocol):
@@ -67,7 +85,7 @@ class Group(NamedTuple):
     next group that is `over` them. A `still` group is the same object at every frame. A group shows only
     inside the rectangle `within`. Groups of one picture with equal keys have equal shapes. `made_of` is the
     object that places the shapes in a pose, for printers of all poses at once. What lies `under` a sheet is
-    drawn on surfaces alone.
+    drawn on surfaces alone. `targets` are where it can be clicked.
     """
 
     name: str
@@ -79,6 +97,7 @@ class Group(NamedTuple):
     key: Hashable = None
     made_of: object = None
     under: Underlay | None = None
+    targets: tuple[Target, ...] = ()
 
     def shifted(self, right: float, down: float) -> Group:
         """Return the group so many pixels to the right and down."""

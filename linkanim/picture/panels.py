@@ -17,6 +17,7 @@ import pygame
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.board import STEP, Board, Span, around, spans
 from linkanim.picture.game_panel import answer_rows, game_panel
+from linkanim.picture.items import Target
 from linkanim.picture.layout import CAPTION_STEP
 from linkanim.picture.overlay import Button, Help, Overlay, Panel, Quantities
 from linkanim.picture.raster import Colour, Layer, Loop, paint
@@ -486,22 +487,6 @@ def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool
 # What lies over the picture: the help, the edit list, a toast, the marks of pause and recording.
 
 _VEIL = 170
-
-
-class Target(NamedTuple):
-    """A place that can be clicked, and its value.
-
-    It is a "list", a "row" with its number, the column of "boxes", the "track" of a scroll bar with the count
-    of rows, the "help", a "line" of it with its keys, or a "toast".
-    """
-
-    kind: str
-    place: Rect
-    value: Any = None
-
-    def moved(self, x: float, y: float) -> Target:
-        """Return the target by so much further right and down."""
-        return self._replace(place=self.place._replace(x=self.place.x + x, y=self.place.y + y))
 
 
 class Panels:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkanim.picture.figure import DrawSetting
-from linkanim.picture.items import Caption, Group
+from linkanim.picture.items import Caption, Group, Target
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import RowsShown
 from linkanim.picture.raster import Layer
@@ -34,14 +34,8 @@ def row_rects(layout: Layout, view: View, shown: RowsShown) -> tuple[Rect, ...]:
     return tuple(Rect(x, y + n * high, wide, high) for n in range(1 + len(shown.rows)))
 
 
-def row_at(layout: Layout, view: View, shown: RowsShown, x: float, y: float) -> int | None:
-    """Return the row under a pixel, from 0; -1 on the title; None off the list."""
-    rects = row_rects(layout, view, shown)
-    return next((n - 1 for n, rect in enumerate(rects) if rect.holds(x, y)), None)
-
-
-def rows(shown: RowsShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield a list: its title, and its rows with the chosen one lit."""
+def rows(kind: str, shown: RowsShown, setting: DrawSetting) -> Iterator[Group]:
+    """Yield a list of a kind, as its targets have it: its title, and its rows with the chosen one lit."""
     layout, theme, size = setting.layout, setting.theme, setting.layout.small_size
     rects = row_rects(layout, setting.view, shown)
     first, last = rects[0], rects[-1]
@@ -61,4 +55,5 @@ def rows(shown: RowsShown, setting: DrawSetting) -> Iterator[Group]:
         if value:
             at = rect.right - _EDGE * size, top
             captions.append(Caption(value, at, size, theme.ink, "right", strong=is_chosen))
-    yield Group("sheet-rows", layers, captions, over=True)
+    targets = tuple(Target(kind, rect, n) for n, rect in enumerate(rects, start=-1))
+    yield Group("sheet-rows", layers, captions, over=True, targets=targets)

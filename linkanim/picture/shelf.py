@@ -14,6 +14,7 @@ import pygame
 from linkanim.errors import LinkanimError
 from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
+from linkanim.picture.items import Target
 from linkanim.picture.layout import Docked, Layout, layout
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import MINE, NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
@@ -441,15 +442,16 @@ class RowPrinter:
         self._still: tuple[object, pygame.Surface] | None = None
         self._type: Type | None = None
 
-    def draw(self, surface: pygame.Surface, layout: Layout, row: AnswerRow | None) -> None:
-        """Draw a row over the picture's foot; without a row, forget the last one."""
+    def draw(self, surface: pygame.Surface, layout: Layout, row: AnswerRow | None) -> list[Target]:
+        """Draw a row over the picture's foot, and return its places; without a row, forget the last one."""
         if row is None or layout.row is None:
             self._live.clear()
-            return
+            return []
         self._type = self._type or letters()
         board, cells = Board(layout, self._type, theme_of(row.theme)), row_cells(layout, len(row.entries))
+        targets = [Target("answer", cell, n) for n, cell in enumerate(cells)]
         if row.dial and layout.dial:
-            draw_dial(surface, board, layout.dial, row.dial)
+            targets.append(draw_dial(surface, board, layout.dial, row.dial))
         kind = layout.size, row.theme, row.names, row.words, row.chosen
         if self._still is None or self._still[0] != kind:
             self._still = kind, _still_answers(board, layout.row, cells, row)
@@ -457,6 +459,7 @@ class RowPrinter:
         for live, cell in self._shown(row, cells, _lines(row) * layout.small_size):
             assert live.printed
             surface.blit(live.printed, (round(cell.x), round(cell.y)))
+        return targets
 
     def _shown(self, row: AnswerRow, cells: tuple[Rect, ...], line: float) -> Iterator[tuple[Live, Rect]]:
         """Yield the pictures of this frame with their places; of those that are missing, make one."""

@@ -11,7 +11,7 @@ import pygame
 
 from linkanim.picture.board import Board
 from linkanim.picture.figure import DrawSetting
-from linkanim.picture.items import Caption, Group
+from linkanim.picture.items import Caption, Group, Target
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import DialShown, SliderShown
 from linkanim.picture.raster import Colour, Layer, paint
@@ -31,10 +31,9 @@ def slider_rect(layout: Layout) -> Rect:
     return Rect(head.right - layout.margin - wide, head.y + 0.25 * small, wide, 4.0 * small)
 
 
-def slider_step(layout: Layout, shown: SliderShown, x: float) -> int:
-    """Return the step that is nearest to a pixel's column."""
-    left, wide = _way(layout)
-    return min(max(round((x - left) / wide * shown.steps), 0), shown.steps)
+def share_along(rail: Rect, x: float) -> float:
+    """Return how far along a knob's rail a pixel's column is, 0 to 1."""
+    return min(max((x - rail.x) / max(rail.width, 1.0), 0.0), 1.0)
 
 
 def slider(setting: DrawSetting, shown: SliderShown) -> Iterator[Group]:
@@ -53,7 +52,8 @@ def slider(setting: DrawSetting, shown: SliderShown) -> Iterator[Group]:
         Caption(shown.low, (left - 0.4 * small, below), small, theme.ink),
         Caption(shown.high, (left + wide + 0.4 * small, below), small, theme.ink, "right"),
     ]
-    yield Group("slider", layers, captions, over=True)
+    target = Target("slider", rect, Rect(left, row, wide, 0.0))
+    yield Group("slider", layers, captions, over=True, targets=(target,))
 
 
 def _track(
@@ -86,20 +86,8 @@ def dial_track(room: Rect) -> Rect:
     return Rect(room.x + (room.width - wide) / 2, room.y, wide, room.height)
 
 
-def dial_value(room: Rect, x: float) -> float:
-    """Return the value at a pixel's x; beyond the track's ends, the value of the nearer end."""
-    track = dial_track(room)
-    return min(max((x - track.x) / max(track.width, 1.0), 0.0), 1.0)
-
-
-def is_on_dial(room: Rect, x: float, y: float) -> bool:
-    """Return whether a pixel is on a dial."""
-    track, reach = dial_track(room), _BESIDE * room.height
-    return track._replace(x=track.x - reach, width=track.width + 2 * reach).holds(x, y)
-
-
-def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: DialShown) -> None:
-    """Draw a dial in its room, its words beside the ends of the track."""
+def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: DialShown) -> Target:
+    """Draw a dial in its room, its words beside the ends of the track; return where it can be grasped."""
     rail, size, unit = dial_track(room), board.layout.small_size, board.layout.unit
     row, line, radius = rail.y + rail.height / 2, max(1.6 * unit, 1.0), 0.5 * size
     marks = [complex(rail.x + at * rail.width, row) + box(2 * line, 0.6 * size) for at in dial.marks]
@@ -109,3 +97,5 @@ def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: DialShown
     top, gap, dim = row - 0.65 * size, radius + 0.7 * size, board.theme.dim
     board.write(surface, dial.low, (rail.x - gap, top), size=size, colour=dim, anchor="right")
     board.write(surface, dial.high, (rail.right + gap, top), size=size, colour=dim)
+    reach = _BESIDE * room.height
+    return Target("dial", rail._replace(x=rail.x - reach, width=rail.width + 2 * reach), rail)

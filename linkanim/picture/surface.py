@@ -12,14 +12,14 @@ import pygame
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
-from linkanim.picture.items import SHEET, Caption, Group, flat
+from linkanim.picture.items import SHEET, Caption, Group, Target, flat
 from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
 from linkanim.picture.text import Lettering, Type
 
 if TYPE_CHECKING:
-    from linkanim.picture.panels import Panels, Target
+    from linkanim.picture.panels import Panels
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """The most memory for cached shapes: that of so many pictures, and so many bytes."""
@@ -79,9 +79,9 @@ class SurfacePrinter:
                     cover.put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
-        self.targets = ()
+        self.targets = tuple(target for run in others for group in run for target in group.targets)
         if overlay != NOTHING_OVER:
-            self.targets = self._panels_of(picture).draw(canvas, overlay)
+            self.targets += self._panels_of(picture).draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 

@@ -14,6 +14,7 @@ from linkanim.build.tools import TOOLS, Tool
 from linkanim.picture.board import Board
 from linkanim.picture.bodies import pin_stamp
 from linkanim.picture.fittings import Coil, barrel, block_layers, hatched
+from linkanim.picture.items import Target
 from linkanim.picture.layout import Gauge, Layout, tool_cells
 from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import ToolBar
@@ -29,11 +30,6 @@ Icon = Callable[[Gauge, Theme], list[Layer]]
 """Draws an icon about 0, within 10 thin lines each way."""
 
 
-def tool_at(layout: Layout, x: float, y: float) -> int | None:
-    """Return the number of the tool under a pixel; None elsewhere."""
-    return next((n for n, cell in enumerate(tool_cells(layout)) if cell.holds(x, y)), None)
-
-
 class ToolPrinter:
     """Paints the bar of tools; the drawn bar, without its tooltip, is cached."""
 
@@ -41,22 +37,20 @@ class ToolPrinter:
         self._kept: tuple[object, pygame.Surface, tuple[int, int]] | None = None
         self._type = letters()
 
-    def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None) -> None:
-        """Draw a bar over the picture, and the name of the tool under the mouse."""
+    def draw(
+        self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None
+    ) -> list[Target]:
+        """Draw a bar over the picture, and the name of the tool under the mouse; return the tools' places."""
         if bar is None:
-            return
-        surface.blit(*self.prepare(layout, theme, bar))
-        if bar.pointed is not None:
-            cell = tool_cells(layout)[bar.pointed]
-            _tooltip(surface, Board(layout, self._type, theme), cell, TOOLS[bar.pointed], typed=bar.typed)
-
-    def prepare(self, layout: Layout, theme: Theme, bar: ToolBar) -> tuple[pygame.Surface, tuple[int, int]]:
-        """Return a bar without its tooltip, and where its upper left corner is; keep it."""
+            return []
         board, cells = Board(layout, self._type, theme), tool_cells(layout)
         made_for = layout.size, cells, theme, replace(bar, pointed=None)
         if self._kept is None or self._kept[0] != made_for:
             self._kept = made_for, *_bar(board, cells, bar)
-        return self._kept[1:]
+        surface.blit(*self._kept[1:])
+        if bar.pointed is not None:
+            _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed], typed=bar.typed)
+        return [Target("tool", cell, n) for n, cell in enumerate(cells)]
 
 
 def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> tuple[pygame.Surface, tuple[int, int]]:

@@ -817,12 +817,29 @@ def _handed(name: str, mouse: Mouse, screen: Screen) -> Action:
     return mouse.handed(name, screen, on_grid=thing_under(screen, *mouse.at) is None)
 
 
+def _row_asks(screen: Screen, x: float, y: float) -> Action | None:
+    """Return the action of a click on a list of the sheet: another meaning or number; None off it."""
+    shown = screen.over.build
+    for kind, rows in (("offers", shown.offers), ("numbers", shown.panel)) if shown else ():
+        row = screen.number_at(kind, x, y)
+        if rows is None or row is None:
+            continue
+        if row == rows.chosen and row in rows.options:
+            return Action("option_on")
+        if kind == "numbers":
+            return Action("number", max(row, 0) - rows.chosen if row >= 0 else 0)
+        return Action("offer", row if row >= 0 else rows.chosen)
+    return None
+
+
 def _motor(gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
     """Return the actions of a motor that is dragged from its tool: on the tool, it is the chosen thing's."""
     if gesture.kind != "up":
         return ()
     mouse.drag = None
-    return (Action("drive_by") if screen.tool_at(*mouse.at) is not None else _handed("motor", mouse, screen),)
+    if screen.target_at("tool", *mouse.at):
+        return (Action("drive_by"),)
+    return (_handed("motor", mouse, screen),)
 
 
 def _of_tool(tool: Tool) -> KeyRow:
@@ -1022,7 +1039,7 @@ class OpenSheet(Mode):
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Draw, take a tool, turn the crank, or shift the paper; None where the mouse acts as usual."""
         if gesture.kind == "down" and screen.charted(*mouse.at) is None:
-            tool, row = screen.tool_at(*mouse.at), screen.sheet_row_at(*mouse.at)
+            tool, row = screen.number_at("tool", *mouse.at), _row_asks(screen, *mouse.at)
             if row is not None:
                 mouse.drag = None
                 return (row,)

@@ -338,12 +338,12 @@ class Mouse:
 
     def _elsewhere(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a gesture on anything that lies below the bar."""
-        if gesture.kind == "down" and screen.on_toast(*self.at):
+        if gesture.kind == "down" and screen.target_at("toast", *self.at):
             self.drag = "bar"
             return (Action("take_toast"),)
         if screen.state.help and self.drag is None and not screen.over.shelf:
             return self._on_the_help(screen) if gesture.kind == "down" else ()
-        if self.drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self.at)):
+        if self.drag == "slider" or (gesture.kind == "down" and screen.target_at("slider", *self.at)):
             return self._on_the_slider(gesture, screen)
         top = screen.state.top
         if top and (found := top.mouse(gesture, self, screen)) is not None:
@@ -520,7 +520,9 @@ class Mouse:
         self.drag = None if gesture.kind == "up" else "slider"
         if gesture.kind == "up":
             return (Action("drop"),)
-        return (Action("slide", screen.slid(self.at[0])),) if gesture.kind in ("down", "move") else ()
+        steps = screen.over.slider.steps if screen.over.slider else 0
+        step = round(steps * screen.share_along("slider", self.at[0]))
+        return (Action("slide", step),) if gesture.kind in ("down", "move") else ()
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
         if self.is_at_pin(screen):

@@ -677,7 +677,7 @@ class Dimensions(Mode):
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Take a tool, or act on the list; None where the mouse acts as usual."""
         is_down = gesture.kind == "down" and mouse.drag is None
-        tool = screen.tool_at(*mouse.at) if is_down else None
+        tool = screen.number_at("tool", *mouse.at) if is_down else None
         if tool is not None:
             mouse.drag = "bar"
             return (Action(TOOLS[tool].action, TOOLS[tool].value),)

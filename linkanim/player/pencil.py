@@ -386,7 +386,7 @@ class Pencil(Sketching, PathSketch):
         if mouse.drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
             return None
         if gesture.kind == "move" and mouse.drag == "dial":
-            return (Action("dial", screen.dialled(mouse.at[0])),)
+            return (Action("dial", screen.share_along("dial", mouse.at[0])),)
         if gesture.kind == "move":
             return (Action("pen_to" if mouse.drag == "pen" else "lead", screen.world(*mouse.at)),)
         drag, mouse.drag = mouse.drag, None
@@ -399,11 +399,11 @@ class Pencil(Sketching, PathSketch):
 
     def begun(self, screen: Screen, x: float, y: float, reach: float) -> Action:
         """Return the action that the pencil begins at a pixel: it takes an answer, pin or point, or draws."""
-        place = screen.answer_at(x, y)
+        place = screen.number_at("answer", x, y)
         if place is not None:
             return Action("answer", place)
-        if screen.on_dial(x, y):
-            return Action("dial", screen.dialled(x))
+        if screen.target_at("dial", x, y):
+            return Action("dial", screen.share_along("dial", x))
         pose = screen.state.displayed.pose(screen.state.phase, 0)
         pivots = [name for name in PIVOTS if name in pose.position] if self.follows else []
         for pivot in pivots:

@@ -569,13 +569,13 @@ class Posing(Sketching, PoseSketch):
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Take an answer, or set down and drag frames and pins; None where the mouse acts as usual."""
         if gesture.kind == "down" and screen.charted(*mouse.at) is None:
-            place = screen.answer_at(*mouse.at)
+            place = screen.number_at("answer", *mouse.at)
             if place is not None:
                 mouse.drag = None
                 return (Action("answer", place),)
-            if screen.on_dial(*mouse.at):
+            if screen.target_at("dial", *mouse.at):
                 mouse.drag = "dial"
-                return (Action("dial", screen.dialled(mouse.at[0])),)
+                return (Action("dial", screen.share_along("dial", mouse.at[0])),)
             on_it = under(self, screen.world(*mouse.at), screen.near) is not None
             mouse.drag = "hand" if on_it or has_room(self) else "pan"
             mouse.draws = mouse.drag == "hand" and not on_it
@@ -586,6 +586,6 @@ class Posing(Sketching, PoseSketch):
         if gesture.kind == "move" and drag == "hand":
             return (mouse.handed("hand_to", screen),)
         if gesture.kind == "move":
-            return (Action("dial", screen.dialled(mouse.at[0])),)
+            return (Action("dial", screen.share_along("dial", mouse.at[0])),)
         mouse.drag = None
         return (Action("hand_up"),) if drag == "hand" else ()

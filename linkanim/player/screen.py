@@ -23,19 +23,16 @@ from linkanim.errors import NoDisplay
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step, pencil
-from linkanim.picture.command_bar import BarPrinter, button_at, share_at
+from linkanim.picture.command_bar import BarPrinter, share_at
 from linkanim.picture.command_icons import window_icon
-from linkanim.picture.layout import Docked, Layout, layout
+from linkanim.picture.layout import Docked, layout
 from linkanim.picture.overlay import NEAR, Hover, Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.sheet_rows import row_at
-from linkanim.picture.shelf import RowPrinter, ShelfPrinter, row_cells
-from linkanim.picture.slider import dial_value, is_on_dial, slider_rect, slider_step
+from linkanim.picture.shelf import RowPrinter, ShelfPrinter
+from linkanim.picture.slider import share_along
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
-from linkanim.picture.tools import ToolPrinter, tool_at
-from linkanim.picture.view import Rect
-from linkanim.player.action import Action
+from linkanim.picture.tools import ToolPrinter
 from linkanim.player.framing import Framing, drawn_in, fading, flash
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.shown import lasting
@@ -43,7 +40,7 @@ from linkanim.player.state import State
 from linkanim.scenes.editing import handles
 
 if TYPE_CHECKING:
-    from linkanim.picture.panels import Target
+    from linkanim.picture.items import Target
 
 # The display: a window on a real screen.
 
@@ -317,14 +314,11 @@ class Screen:
         else:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
-            self._targets = self._printer.targets
-            self._row.draw(surface, picture.layout, over.row)
-            self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
-        self._bar.draw(surface, self._bar_layout(over, picture), theme_of(state.look.theme), over.bar)
-
-    def _bar_layout(self, over: Overlay, picture: Picture | None = None) -> Layout:
-        """Return the layout in which the bar of commands stands; the shelf fills the window."""
-        return layout(self.size, docked=Docked(bar=True)) if over.shelf else (picture or self.last).layout
+            row = self._row.draw(surface, picture.layout, over.row)
+            tools = self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
+            self._targets = *self._printer.targets, *row, *tools
+        place = layout(self.size, docked=Docked(bar=True)) if over.shelf else picture.layout
+        self._targets += tuple(self._bar.draw(surface, place, theme_of(state.look.theme), over.bar))
 
     def _point(self, state: State) -> None:
         """Show the mouse's pointer as a pencil while the pencil is taken."""
@@ -400,78 +394,43 @@ class Screen:
         px, py = self.pixel(*place)
         return px - x, py - y
 
-    def answer_cells(self) -> tuple[Rect, ...]:
-        """Return where the pictures of the answers are, in pixels."""
-        count = len(self.state.sketch.answers) if self.state.sketch else 0
-        return row_cells(self.last.layout, count)
-
-    def answer_at(self, x: float, y: float) -> int | None:
-        """Return the number of the answer whose picture is under a pixel; None elsewhere."""
-        return next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
-
-    def on_dial(self, x: float, y: float) -> bool:
-        """Return whether a pixel is on the dial above the answers."""
-        room, row = self.last.layout.dial, self.over.row
-        return bool(room and row and row.dial) and is_on_dial(room, x, y)  # type: ignore[arg-type]
-
-    def dialled(self, x: float) -> float:
-        """Return the share of the dial at a pixel's x."""
-        room = self.last.layout.dial
-        return dial_value(room, x) if room else 0.0
+    def share_along(self, kind: str, x: float) -> float:
+        """Return how far along the rail of the dial, or the slider, a pixel's column is, 0 to 1."""
+        one = next((one for one in self._targets if one.kind == kind), None)
+        return share_along(one.value, x) if one else 0.0
 
     @property
     def near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""
         return NEAR * self.size[1] / self.last.view.scale
 
-    def slider_at(self, x: float, y: float) -> bool:
-        """Return whether a pixel lies on the slider that is shown."""
-        return bool(self.over.slider and not self.over.shelf) and slider_rect(self.last.layout).holds(x, y)
+    def targets(self, kind: str) -> list[Target]:
+        """Return the places of a kind that can be clicked, as they were drawn, the topmost last."""
+        return [one for one in self._targets if one.kind == kind]
 
-    def slid(self, x: float) -> int:
-        """Return the step of the slider that is nearest to a pixel's column."""
-        shown = self.over.slider
-        return slider_step(self.last.layout, shown, x) if shown else 0
+    def target_at(self, kind: str, x: float, y: float) -> Target | None:
+        """Return the topmost place of a kind at a pixel; None where there is none."""
+        return next((one for one in reversed(self.targets(kind)) if one.place.holds(x, y)), None)
 
-    def _target(self, kind: str, x: float, y: float) -> Target | None:
-        """Return the topmost target of a kind at a pixel; None where there is none."""
-        found = (one for one in reversed(self._targets) if one.kind == kind and one.place.holds(x, y))
-        return next(found, None)
-
-    def on_toast(self, x: float, y: float) -> bool:
-        """Return whether a pixel is on the toast."""
-        return self._target("toast", x, y) is not None
+    def number_at(self, kind: str, x: float, y: float) -> int | None:
+        """Return the number of the tool, the answer or the row of a kind under a pixel; None elsewhere."""
+        found = self.target_at(kind, x, y)
+        return found.value if found else None
 
     def help_at(self, x: float, y: float) -> str | None:
         """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
-        line = self._target("line", x, y)
-        return line.value if line else "" if self._target("help", x, y) else None
+        line = self.target_at("line", x, y)
+        return line.value if line else "" if self.target_at("help", x, y) else None
 
     def button_at(self, x: float, y: float) -> int | None:
         """Return the number of the command of the bar under a pixel, -1 between them; None off the bar."""
-        bar = self.over.bar
-        return button_at(self._bar_layout(self.over), bar.buttons, x, y) if bar else None
+        number = self.number_at("button", x, y)
+        return -1 if number is None and self.target_at("bar", x, y) else number
 
     def share_at(self, number: int, x: float) -> float:
         """Return the share of a slider on the bar, 0 to 1, at a pixel's x."""
-        bar = self.over.bar
-        return share_at(self._bar_layout(self.over), bar.buttons, number, x) if bar else 0.0
-
-    def sheet_row_at(self, x: float, y: float) -> Action | None:
-        """Return the action of a click on a list of the sheet: another meaning or number; None off it."""
-        shown, last = self.over.build, self.last
-        for rows, name in ((shown.offers, "offer"), (shown.panel, "number")) if shown else ():
-            row = row_at(last.layout, last.view, rows, x, y) if rows else None
-            if rows and row == rows.chosen and row in rows.options:
-                return Action("option_on")
-            if rows and row is not None:
-                by = max(row, 0) - (rows.chosen if name == "number" else 0)
-                return Action(name, by if row >= 0 else 0 if name == "number" else rows.chosen)
-        return None
-
-    def tool_at(self, x: float, y: float) -> int | None:
-        """Return the number of the tool under a pixel, where there are tools; None elsewhere."""
-        return tool_at(self.last.layout, x, y) if self.over.tool_bar else None
+        cell = next((one.place for one in self.targets("button") if one.value == number), None)
+        return share_at(cell, x) if cell else 0.0
 
     def handed(
         self, x: float, y: float, part: float, *, on_grid: bool = False
@@ -486,7 +445,7 @@ class Screen:
 
     def hover(self, x: float, y: float) -> Hover:
         """Return the tool or the place of the sheet under a pixel."""
-        return Hover(self.world(x, y), self.near, self.tool_at(x, y))
+        return Hover(self.world(x, y), self.near, self.number_at("tool", x, y))
 
     def aimed(self, cursor: Point | None, way: tuple[float, ...]) -> tuple[float, float]:
         """Return where the keys' cursor goes: to the next line of the grid, or one step on a fine way.
@@ -528,8 +487,8 @@ class Screen:
 
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
-        row = self._target("row", x, y)
-        return row.value if row else -1 if self._target("list", x, y) else None
+        row = self.target_at("row", x, y)
+        return row.value if row else -1 if self.target_at("list", x, y) else None
 
     def on_box(self, x: float) -> bool:
         """Tell whether a pixel is in the column of the open list's boxes, where its rows have boxes."""

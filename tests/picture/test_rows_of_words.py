@@ -7,7 +7,7 @@ import pytest
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import RowsShown
 from linkanim.picture.picture import Picture
-from linkanim.picture.sheet_rows import row_at, rows
+from linkanim.picture.sheet_rows import rows
 from linkanim.scenes import load
 
 BAR = RowsShown(
@@ -25,15 +25,19 @@ def test_each_row_holds_its_words_and_is_found_there(
 ) -> None:
     shown = shown._replace(at=at)
     setting = Picture(load("crank-rocker"), size, Look()).drawing.setting
-    layout, view = setting.layout, setting.view
-    (group,) = rows(shown, setting)
+    layout = setting.layout
+    (group,) = rows("numbers", shown, setting)
+
+    def row_at(x: float, y: float) -> int | None:
+        return next((one.value for one in group.targets if one.place.holds(x, y)), None)
+
     title, *words = group.captions
     told = [text for row in shown.rows for text in row if text]
     assert [title.text, *(one.text for one in words)] == [shown.title, *told]
     ends = dict[int, float]()
     for caption in group.captions:
         place = caption.around(setting.type)
-        found = {row_at(layout, view, shown, x, place.middle.imag) for x in (place.x, place.right)}
+        found = {row_at(x, place.middle.imag) for x in (place.x, place.right)}
         row = next((n for n, one in enumerate(shown.rows) if caption.text in one), -1)
         assert found == {row}, caption.text
         assert layout.stage.holds(place.x, place.y)
@@ -41,4 +45,4 @@ def test_each_row_holds_its_words_and_is_found_there(
         assert place.x > ends.get(row, 0.0)
         ends[row] = place.right
     beside = max(loop.real.max() for layer in group.layers for loop in layer.loops) + 1.0
-    assert row_at(layout, view, shown, beside, place.middle.imag) is None
+    assert row_at(beside, place.middle.imag) is None

@@ -7,6 +7,7 @@ from typing import Any
 
 import pygame
 
+from linkanim.picture.view import Rect
 from linkanim.player import screen
 from linkanim.player.commands import Entries
 from linkanim.player.files import SceneFile
@@ -65,6 +66,13 @@ class Player:
         for place in places[1:]:
             self.mouse(pygame.MOUSEMOTION, place, rel=(0, 0), buttons=(1, 0, 0))
         self.mouse(pygame.MOUSEBUTTONUP, places[-1], button=1)
+
+
+def bar_cells_in(shown: screen.Screen) -> list[Rect | None]:
+    """Return where the buttons of the bar were drawn, by their numbers; None for those without room."""
+    found = {one.value: one.place for one in shown.targets("button")}
+    buttons = shown.over.bar.buttons if shown.over.bar else ()
+    return [found.get(number) for number in range(len(buttons))]
 
 
 def the(state: State, kind: type[OneMode]) -> OneMode:

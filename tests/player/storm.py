@@ -21,7 +21,6 @@ from playing import NoSearch, fake_start
 
 from linkanim.cli import main
 from linkanim.export import json_text
-from linkanim.picture.command_bar import bar_cells
 from linkanim.play.arcade import Arcade
 from linkanim.player import beside, files
 from linkanim.player import window as window_module
@@ -345,8 +344,8 @@ class Storm:
 def _spots(window: Window) -> list[tuple[int, int]]:
     """Return a pixel of each thing in sight that can be pressed: buttons, rows, answers, a slider, a dial."""
     shown, layout = window.screen, window.screen.last.layout
-    buttons = shown.over.bar.buttons if shown.over.bar else ()
-    cells = [*bar_cells(shown._bar_layout(shown.over), buttons), *shown.answer_cells(), layout.dial]
+    places = [one.place for kind in ("button", "answer") for one in shown.targets(kind)]
+    cells = [*places, layout.dial]
     middles = [cell.middle for cell in cells if cell]
     width, height = shown.size
     rows = [complex(width / 8, height * n / 9) for n in range(1, 9)] if window.state.of(Listing) else []

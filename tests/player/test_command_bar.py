@@ -10,11 +10,12 @@ from typing import Any
 
 import pygame
 import pytest
-from playing import SIZE, Player, menu_in, the
+from playing import SIZE, Player, bar_cells_in, menu_in, the
 
-from linkanim.picture.command_bar import bar_cells, bar_place, button_at, share_at
+from linkanim.picture.command_bar import BarPrinter, bar_cells, bar_place
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import Docked, layout, with_side
+from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
 from linkanim.player import screen, taking
@@ -263,10 +264,10 @@ def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_re
         assert frame.bottom <= size[1] + 1e-9
     if size[0] >= 1280:
         assert [button for _, button in seen] == [one for one in found.buttons if not one.on_chart]
-    for cell, button in seen:
-        number = button_at(place, found.buttons, cell.middle.real, cell.middle.imag)
-        assert number is not None
-        assert found.buttons[number] == button
+    surface = pygame.Surface(size)
+    targets = BarPrinter().draw(surface, place, theme_of("light"), found)
+    drawn = {one.value: one.place for one in targets if one.kind == "button"}
+    assert [(drawn[n], found.buttons[n]) for n in sorted(drawn)] == seen
     for (one, _), (other, _) in pairwise(seen):
         assert one.right < other.x
 
@@ -313,7 +314,7 @@ def bar_now(player: Player) -> dict[str, Rect]:
     player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
     over = player.window.screen.over
     assert over.bar
-    cells = bar_cells(player.window.screen._bar_layout(over), over.bar.buttons)
+    cells = bar_cells_in(player.window.screen)
     pairs = zip(over.bar.buttons, cells, strict=True)
     return {one.icon: cell for one, cell in pairs if cell and not one.on_chart}
 
@@ -327,8 +328,7 @@ def test_the_bar_stands_still_while_a_list_opens(player: Player, size: tuple[int
     after_it = bar_now(player)
     assert after_it.pop("back") == before.pop("home")
     assert after_it == before
-    over = player.window.screen.over
-    layout = player.window.screen._bar_layout(over)
+    layout = player.window.screen.last.layout
     assert layout.lists.bottom < min(cell.y for cell in after_it.values())
 
 
@@ -451,7 +451,7 @@ def button(player: Player, name: str) -> tuple[float, float, float]:
     assert screen.over.bar
     buttons = screen.over.bar.buttons
     number = next(n for n, one in enumerate(buttons) if one.name.startswith(name))
-    cell = bar_cells(screen._bar_layout(screen.over), buttons)[number]
+    cell = bar_cells_in(screen)[number]
     assert cell
     return cell.middle.real, cell.middle.imag, cell.width
 
@@ -533,7 +533,7 @@ def test_a_click_on_a_toast_opens_the_folder_of_what_was_saved(
             (x, y)
             for y in range(4, 720, 8)
             for x in range(8, 1280, 40)
-            if player.window.screen.on_toast(x, y)
+            if player.window.screen.target_at("toast", x, y)
         ]
         player.mouse(pygame.MOUSEBUTTONDOWN, on[0], button=1)
         player.mouse(pygame.MOUSEBUTTONUP, on[0], button=1)
@@ -541,12 +541,13 @@ def test_a_click_on_a_toast_opens_the_folder_of_what_was_saved(
     assert opened == [(here / "recordings").as_uri()]
 
 
-def test_a_slider_that_goes_while_it_is_dragged_gives_a_share_all_the_same(rocker: State) -> None:
+def test_a_slider_that_goes_while_it_is_dragged_gives_a_share_all_the_same(player: Player) -> None:
     """Another mode's bar has fewer buttons than the one in which the drag began."""
-    shown = overlay(rocker).bar
-    assert shown
-    numbers = range(len(shown.buttons) + 2)
-    assert all(0.0 <= share_at(layout(SIZE), shown.buttons, number, 640.0) <= 1.0 for number in numbers)
+    bar_now(player)
+    shown = player.window.screen
+    assert shown.over.bar
+    numbers = range(len(shown.over.bar.buttons) + 2)
+    assert all(0.0 <= shown.share_at(number, 640.0) <= 1.0 for number in numbers)
 
 
 @pytest.mark.thinned(5)

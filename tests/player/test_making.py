@@ -14,10 +14,9 @@ from typing import ClassVar
 import numpy as np
 import pygame
 import pytest
-from playing import SHIFT, Player, fake_start, menu_in, the
+from playing import SHIFT, Player, bar_cells_in, fake_start, menu_in, the
 
 from linkanim.export import json_text
-from linkanim.picture.command_bar import bar_cells
 from linkanim.picture.constructed import all_steps, shown_at
 from linkanim.picture.layered import LayerView
 from linkanim.picture.look import Look
@@ -351,7 +350,7 @@ def click(player: Player, icon: str) -> None:
     player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
     over = player.window.screen.over
     assert over.bar
-    cells = bar_cells(player.window.screen._bar_layout(over), over.bar.buttons)
+    cells = bar_cells_in(player.window.screen)
     (at,) = (
         cell.middle for cell, one in zip(cells, over.bar.buttons, strict=True) if one.icon == icon and cell
     )

@@ -17,10 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 import pytest
-from playing import CTRL, SHIFT, NoSearch, Player
+from playing import CTRL, SHIFT, NoSearch, Player, bar_cells_in
 
 from linkanim.build.tools import TOOLS
-from linkanim.picture.command_bar import bar_cells
 from linkanim.picture.layout import tool_cells
 from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.play.arcade import Arcade
@@ -86,7 +85,7 @@ class Pointing(Hand):
         assert shown.over.bar
         buttons = shown.over.bar.buttons
         number = next(n for n, one in enumerate(buttons) if one.name.startswith(name))
-        cell = bar_cells(shown._bar_layout(shown.over), buttons)[number]
+        cell = bar_cells_in(shown)[number]
         assert cell
         return cell.middle.real, cell.middle.imag, cell.width
 

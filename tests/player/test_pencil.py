@@ -378,7 +378,7 @@ def test_stroke_linkage_cognates_and_cards_are_all_in_sight_and_0_brings_them_ba
             places = [*map(complex, *zip(*pose.position.values(), strict=True)), *sum(bars, ())]
             found = [view.pixel(at.real, at.imag) for at in (*sketch.points, *places)]
             stage = view.last.layout.stage
-            low = min((cell.y for cell in view.answer_cells()), default=stage.bottom)
+            low = min((one.place.y for one in view.targets("answer")), default=stage.bottom)
             return all(0 <= x <= size[0] and 0 <= y <= low for x, y in found)
 
         assert all(is_seen(0.1 * n) for n in range(63))
@@ -419,7 +419,7 @@ def test_points_pins_and_pictures_are_under_the_pencil(player: Player) -> None:
     player.drag(pin, (pin[0] + 6, pin[1] + 6))
     assert [name for name, _ in sketch_of(player.state).pivots] == ["O4"]
     settle(player)
-    cells = screen.answer_cells()
+    cells = [one.place for one in screen.targets("answer")]
     player.mouse(pygame.MOUSEBUTTONDOWN, (cells[1].x + 5, cells[1].y + 5), button=1)
     player.mouse(pygame.MOUSEBUTTONUP, (cells[1].x + 5, cells[1].y + 5), button=1)
     assert sketch_of(player.state).chosen == 1

@@ -8,10 +8,9 @@ from typing import Any
 
 import pygame
 import pytest
-from playing import CTRL, SHIFT, NoSearch, Player, the
+from playing import CTRL, SHIFT, NoSearch, Player, bar_cells_in, the
 
 from linkanim.export import json_text
-from linkanim.picture.command_bar import bar_cells
 from linkanim.play.games import game_of
 from linkanim.player import beside, screen
 from linkanim.player.action import Action
@@ -119,7 +118,7 @@ def open_list(player: Player) -> None:
     assert shown.over.bar
     buttons = shown.over.bar.buttons
     number = next(n for n, one in enumerate(buttons) if one.name == "all commands")
-    cell = bar_cells(shown._bar_layout(shown.over), buttons)[number]
+    cell = bar_cells_in(shown)[number]
     assert cell
     player.drag((cell.middle.real, cell.middle.imag))
 
@@ -212,8 +211,9 @@ def test_answers_and_the_dial_are_under_the_mouse_and_a_finger(here: object) -> 
         player.settle()
         shown, room = player.window.screen, player.window.screen.last.layout.dial
         assert room
-        card = shown.answer_cells()[1].middle
-        spots = [(x, room.middle.imag) for x in range(0, SIZE[0], 20) if shown.on_dial(x, room.middle.imag)]
+        card = shown.targets("answer")[1].place.middle
+        row = room.middle.imag
+        spots = [(x, row) for x in range(0, SIZE[0], 20) if shown.target_at("dial", x, row)]
         for finger in (False, True):
             for at, name in (((card.real, card.imag), "answer"), (spots[-1], "dial")):
                 events = [pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=at, button=1)]
