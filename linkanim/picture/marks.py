@@ -16,7 +16,7 @@ from linkanim.picture.figure import DrawSetting
 from linkanim.picture.game_panel import mood_colour
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge
-from linkanim.picture.overlay import DimensionLine, Lane, Spot
+from linkanim.picture.overlay import BandShown, DimensionLine, Lane, Spot
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Stamp, box, disc, segments, stroke, unit
 from linkanim.picture.theme import ORANGE, Theme, mixed
@@ -137,8 +137,23 @@ def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
 
 BEYOND = 0.06
 """How far the guide is drawn beyond the dead centres, in strokes."""
+_BAND = 0.3
+"""The opacity of a band round a trace."""
 _DEEPEST = 0.62
 """How far the paper extends ahead of the ram at the most, in heights of the stage."""
+
+
+def band(setting: DrawSetting, shown: BandShown) -> Group:
+    """Return the bands round traces, each in its trace's colour."""
+    theme, layers = setting.theme, list[Layer]()
+    for n, pairs in enumerate(shown.edges):
+        edges = np.array([[setting.view.place((at.real, at.imag)) for at in pair] for pair in pairs])
+        (left, right), (further, beyond) = edges.T, np.roll(edges, -1, axis=0).T
+        loops = np.stack([left, right, beyond, further], axis=1)
+        turns = (np.conj(beyond - left) * (further - right)).imag > 0
+        loops[turns] = loops[turns, ::-1]
+        layers.append(Layer(theme.traces[n % len(theme.traces)], [*loops], _BAND))
+    return Group("band", layers)
 
 
 def lane(setting: DrawSetting, shown: Lane) -> Group:

@@ -555,20 +555,28 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
 
+class BandShown(NamedTuple):
+    """Bands round traces: of each both edges from place to place (x + yi, in the scene's unit), and words."""
+
+    edges: tuple[tuple[tuple[complex, complex], ...], ...]
+    sentence: str
+    facts: tuple[str, ...] = ()
+
+
 @frozen
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    `construction` is how many steps of the scene's construction are drawn. Answers that are places have
-    `spots` on the picture, in their order; a ram that is followed has its `lane`. The joints `handles` can be
-    dragged. With `noted` the HUD says that a limit or a change point is near. `chip` answers a key, `hint`
-    says which keys to press, `watch` what to watch for. `measured` are the lines of the chosen dimension and
-    of those beside it, `glow` is the joint under the mouse, `told` the words about the thing there, `instant`
-    the phase that the mouse points at on a curve; with `grip` the chart's cursor has a grip. `shutter` is how
-    white the picture is, in eighths. The `bar` has the commands; `tools` are those of a sheet, beside a list
-    of dimensions. In a `swing` the linkage is between two closures. The share
-    `shut` of an open list is still beyond the window's edge. `hover` is what the mouse is over, for those who
-    describe the rest.
+    `construction` is how many steps of the scene's construction are drawn; a `band` lies round traces.
+    Answers that are places have `spots` on the picture, in their order; a ram that is followed has its
+    `lane`. The joints `handles` can be dragged. With `noted` the HUD says that a limit or a change point is
+    near. `chip` answers a key, `hint` says which keys to press, `watch` what to watch for. `measured` are the
+    lines of the chosen dimension and of those beside it, `glow` is the joint under the mouse, `told` the
+    words about the thing there, `instant` the phase that the mouse points at on a curve; with `grip` the
+    chart's cursor has a grip. `shutter` is how white the picture is, in eighths. The `bar` has the commands;
+    `tools` are those of a sheet, beside a list of dimensions. In a `swing` the linkage is between two
+    closures. The share `shut` of an open list is still beyond the window's edge. `hover` is what the mouse is
+    over, for those who describe the rest.
     """
 
     paused: bool = False
@@ -584,6 +592,7 @@ class Overlay:
     poses: PosesShown | None = None
     layers: LayersShown | None = None
     construction: int = 0
+    band: BandShown | None = None
     slider: SliderShown | None = None
     swing: SwingShown | None = None
     game: GamePanel | None = None

@@ -21,6 +21,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.names import Names
 from linkanim.picture.overlay import (
     NOTHING_OVER,
+    BandShown,
     Lane,
     LayersShown,
     Overlay,
@@ -180,6 +181,8 @@ class Picture:
         yield from self._behind_at(pose.input_speed, path)
         if overlay.lane:
             yield self._lane(overlay.lane)
+        if overlay.band:
+            yield from self._within([self._band(overlay.band)])
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
@@ -206,7 +209,11 @@ class Picture:
             found = (polygon.standing(pose.phase) if stands else polygon).group(pose)
             yield found.shifted(*self._aside) if any(self._aside) else found
         yield from self._on_chart(pose, grasped=overlay.grip)
-        if not overlay.construction:  # the words of a construction stand in this place
+        if overlay.band:
+            from linkanim.picture.build_sheet import worded
+
+            yield worded(self.drawing.setting, overlay.band.sentence, overlay.band.facts)
+        elif not overlay.construction:  # the words of a construction stand in this place
             yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
 
@@ -265,6 +272,11 @@ class Picture:
         yield _NOTHING_STILL
         yield grouped("layers", lifted(parts, pose, unit, view, self.theme, text, pixel=pixel))
         yield worded(self.drawing.setting, shown.sentence, shown.facts, beside=slider_rect(layout))
+
+    def _band(self, shown: BandShown) -> Group:
+        from linkanim.picture.marks import band
+
+        return band(self.drawing.setting, shown)
 
     def _lane(self, shown: Lane) -> Group:
         from linkanim.picture.marks import lane

@@ -28,6 +28,7 @@ From the ground up; a module imports from those before it only:
     making     the steps of a construction; a mode: layers in which a scene can be made
     naming     a mode: the name of the file to be written
     taking     a mode: how a recording is made, and where it goes
+    bands      a mode: the band within which traced points stay
     modes      all modes, and the one table of their keys
     actions    the table of actions, and `advance(state, actions)`
     tape       what was done, frame by frame

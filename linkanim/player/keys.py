@@ -175,7 +175,11 @@ KEYS: Table = {
         KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     ),
     "edit": (
-        KeyRow("E", "edit dimensions (H there: how)", on("e", "edit")),
+        KeyRow(
+            "E (Shift: tolerances)",
+            "edit dimensions (H there: how)",
+            on("e", "edit") + on("shift+e", "tolerance"),
+        ),
         KeyRow("F2, W (Shift: this one)", "build it, or draw its path", _BUILD + _PATH),
         KeyRow("F4", "set down poses of a body", on("f4", "poses")),
         KeyRow("F7 (Shift: back)", "constructions, step by step", _STEPS),
@@ -426,6 +430,9 @@ _APART: Mapping[Action, str] = {
     Action("fit"): "fit",
     Action("edit"): "edit dimensions",
     Action("numbers"): "edit dimensions",
+    Action("tolerance"): "tolerances: how far off it may be",
+    Action("tolerate", 1): "a coarser tolerance",
+    Action("tolerate", -1): "a finer tolerance",
     Action("shelf"): "the shelf",
     Action("help"): "help",
     Action("menu"): "all commands",

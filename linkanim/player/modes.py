@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from linkanim.player.bands import ToleranceBand
 from linkanim.player.building import OpenSheet, SheetNumbers
 from linkanim.player.edits import Dimensions
 from linkanim.player.finding import Finder
@@ -30,6 +31,7 @@ MODES: tuple[type[Mode], ...] = (
     Pencil,
     Posing,
     Layering,
+    ToleranceBand,
     Game,
     Naming,
     TakeDialog,

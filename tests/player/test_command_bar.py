@@ -62,6 +62,7 @@ ENTERED: dict[str, tuple[Action | str, ...]] = {
     "numbers": ("build_on", "numbers"),
     "layers": ("layers",),
     "closures": ("closures",),
+    "tolerance": ("tolerance",),
     "game": (Action("play", "title"),),
 }
 in_every_mode = pytest.mark.parametrize("mode", ENTERED)
