@@ -23,6 +23,16 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     BadInput where the extra is not installed, the folder cannot be one or the chart's name in it is taken,
     before anything is measured.
     """
+    if options.again:
+        require_extra(needed=("mpmath",))
+        from linkanim.bench.result import again
+
+        name, *numbers = options.again
+        try:
+            print(again(name, [float.fromhex(number) for number in numbers]))
+        except (ValueError, OverflowError):
+            raise BadInput(f"bench --again: {' '.join(numbers)}: give hexadecimal floats") from None
+        return
     require_extra()
     from linkanim.bench import drawing, result
     from linkanim.manifest import single
@@ -36,9 +46,9 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     print(drawing.draw(found, chart), file=sys.stderr)
 
 
-def require_extra(found: Callable[[str], object] = find_spec) -> None:
+def require_extra(found: Callable[[str], object] = find_spec, needed: tuple[str, ...] = ()) -> None:
     """Raise BadInput where a package of the extra is not installed, naming what installs it."""
-    missing = [name for name in NEEDED if found(name) is None]
+    missing = [name for name in needed or NEEDED if found(name) is None]
     if missing:
         raise BadInput(
             f"bench works with {' and '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "

@@ -245,7 +245,8 @@ class Score:
     Errors are of position, velocity and acceleration, at the joint with the largest: positions in longest
     links, rates in longest links or in the pose's largest rate, whichever is more. NaN where no pose is right
     or the method gives none. A pose is `wrong` where a dyad's joint is at most half as far from its other
-    closure as from the right one, and `nan` where a position is not a number.
+    closure as from the right one, and `nan` where a position is not a number. `at` are the inputs, as
+    hexadecimal floats, at which the errors are worst.
     """
 
     poses: int
@@ -254,6 +255,7 @@ class Score:
     acceleration_error: float
     wrong: int
     nan: int
+    at: tuple[str, ...] = ()
 
     @property
     def errors(self) -> tuple[float, float, float]:
@@ -261,20 +263,28 @@ class Score:
         return self.error, self.velocity_error, self.acceleration_error
 
 
+def errors_of(found: Orders, answer: Answer) -> list[Floats]:
+    """Return the errors of the orders that are found at each pose: of the joint that is farthest off."""
+    longest = answer.question.longest
+    rates = [
+        _farthest(places, exact) / np.maximum(_largest(exact), longest)
+        for places, exact in zip(found[1:], answer.orders[1:], strict=False)
+    ]
+    return [_farthest(found[0], answer.orders[0]) / longest, *rates]
+
+
 def score(solve: Solve, answer: Answer) -> Score:
     """Return the score of a method's answer."""
     with np.errstate(all="ignore"):
         found = solve(answer.question)
-        longest = answer.question.longest
-        error = _farthest(found[0], answer.orders[0]) / longest
+        error, *rates = errors_of(found, answer)
         wrong, missing = _elsewhere(found[0], answer), ~np.isfinite(error)
         right = ~wrong & ~missing
-        rates = [
-            _farthest(places, exact) / np.maximum(_largest(exact), longest)
-            for places, exact in zip(found[1:], answer.orders[1:], strict=False)
-        ]
-    position, velocity, acceleration, *_ = (*(_worst(one, right) for one in (error, *rates)), np.nan, np.nan)
-    return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()))
+    worst = [_worst(one, right) for one in (error, *rates)]
+    position, velocity, acceleration, *_ = (*(largest for largest, _ in worst), np.nan, np.nan)
+    given = answer.question.angles if answer.question.by_angle else answer.question.phases
+    at = tuple(float(given[n]).hex() for _, n in worst)
+    return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()), at)
 
 
 def together(scores: Sequence[Score]) -> Score:
@@ -287,12 +297,12 @@ def together(scores: Sequence[Score]) -> Score:
     return Score(poses, position, velocity, acceleration, wrong, nan)
 
 
-def _worst(errors: Floats, right: Any) -> float:
-    """Return the largest error of the right poses; a rate that is NaN there counts as infinitely wrong."""
-    kept = errors[right]
-    if not kept.size or np.isnan(errors).all():
-        return float("nan")
-    return float(np.nan_to_num(kept, nan=np.inf).max())
+def _worst(errors: Floats, right: Any) -> tuple[float, int]:
+    """Return the largest error of the right poses, and which; NaN of a rate counts as infinitely wrong."""
+    if not right.any() or np.isnan(errors).all():
+        return float("nan"), 0
+    kept = np.where(right, np.nan_to_num(errors, nan=np.inf), -1.0)
+    return float(kept.max()), int(kept.argmax())
 
 
 def _farthest(found: Places, exact: Mapping[str, Exact]) -> Floats:

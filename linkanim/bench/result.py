@@ -5,6 +5,7 @@ Its parts, in reading order:
 - Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 - The result of a run of the benchmark: rows of speed and error.
 - What was recorded of other methods, for the rows beside.
+- Where errors are worst, and each of them once more.
 - A result as a table for the terminal or the manual, and as JSON.
 """
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 import math
 import os
 import platform
+import shlex
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -24,9 +26,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from linkanim.bench.methods import Entry, Timed, entries
+from linkanim.bench.further import FurtherWork, further
+from linkanim.bench.methods import Entry, Timed, batch, entries
 from linkanim.bench.questions import MECHANISMS, CaseSet
 from linkanim.bench.reference import Score, Solve, answer, score, together
+from linkanim.errors import BadInput
 from linkanim.export import columns, json_text, markdown
 from linkanim.frozen import NamedTuple, frozen
 
@@ -135,12 +139,27 @@ class Measured:
 
 
 @frozen
+class FurtherMeasured:
+    """A piece of further work: its time in ns for each pose or linkage, its worst error, and where that is.
+
+    `at` are hexadecimal floats.
+    """
+
+    name: str
+    words: str
+    ns: float
+    error: float
+    at: tuple[str, ...]
+
+
+@frozen
 class Result:
     """The result of one run: the machine, and all rows."""
 
     machine: Machine
     rows: tuple[Measured, ...]
     day: date
+    further: tuple[FurtherMeasured, ...] = ()
 
 
 def run(
@@ -148,19 +167,29 @@ def run(
     *,
     mechanisms: Sequence[CaseSet] = MECHANISMS,
     rows: Callable[[CaseSet], Sequence[Entry]] = entries,
+    others: Callable[[], Sequence[FurtherWork]] = further,
 ) -> Result:
     """Measure all methods on all mechanisms, which takes some minutes."""
     entered = [(mechanism, tuple(rows(mechanism))) for mechanism in mechanisms]
-    times = nanoseconds(
-        _work([row for _, methods in entered for row in methods]), budget=BUDGET, progress=progress
-    )
+    more = others()
+    work = _work([row for _, methods in entered for row in methods])
+    work |= {("", one.name, 0): one.timed for one in more}
+    times = nanoseconds(work, budget=BUDGET, progress=progress)
     found = tuple(
         _row(entry, times, scores[entry.solve])
         for mechanism, methods in entered
         for scores in [_scores(mechanism, methods)]
         for entry in methods
     )
-    return Result(this_machine(), found, date.today())
+    told = tuple(_further(one, times["", one.name, 0]) for one in more)
+    return Result(this_machine(), found, date.today(), told)
+
+
+def _further(work: FurtherWork, nanos: float) -> FurtherMeasured:
+    errors = work.errors(work.tried)
+    worst = int(np.nan_to_num(errors, nan=np.inf).argmax())
+    at = tuple(number.hex() for number in work.tried[worst].tolist())
+    return FurtherMeasured(work.name, work.words, nanos, float(errors[worst]), at)
 
 
 def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:
@@ -244,6 +273,46 @@ def _recorded(mechanism: str, name: str, cells: Sequence[str], poses: tuple[int,
     return Measured(mechanism, name, method, RECORDED, times[0], times[1], *scores, {})
 
 
+# Where errors are worst, and each of them once more.
+
+ORDERS = ("position", "velocity", "acceleration")
+
+
+def witnesses(result: Result) -> list[str]:
+    """Return where this solver's errors are worst, each with the command that prints it again."""
+    lines = []
+    for row in (row for row in result.rows if row.key == "batch"):
+        for order, what in enumerate(ORDERS):
+            told = [(case.errors[order], name, case.at[order]) for name, case in row.cases.items() if case.at]
+            if told:
+                error, name, at = max(told)
+                lines.append(_witness(f"{row.mechanism}: {name}", what, error, [at]))
+    return lines + [_witness(one.name, "error", one.error, one.at) for one in result.further]
+
+
+def _witness(name: str, what: str, error: float, at: Sequence[str]) -> str:
+    return f"{what} {error:.1e}: linkanim bench --again {shlex.quote(name)} {' '.join(at)}"
+
+
+def again(name: str, numbers: Sequence[float]) -> str:
+    """Return once more the errors that a witness tells of, as text.
+
+    BadInput for the name of nothing, or for too few numbers.
+    """
+    cases = {f"{kind.name}: {case.name}": case for kind in MECHANISMS for case in (kind.easy, *kind.hard)}
+    more = {work.name: work for work in further()}
+    if name not in cases | more:
+        raise BadInput(f"bench --again {name!r}: there are {', '.join(map(repr, [*cases, *more]))}")
+    inputs = more[name].inputs if name in more else ("input",)
+    if len(numbers) != len(inputs):
+        raise BadInput(f"bench --again {name!r}: give {', '.join(inputs)} as hexadecimal floats")
+    if name in more:
+        (error,) = more[name].errors(np.array([numbers])).tolist()
+        return f"error {error:.2e}"
+    found = score(batch, answer(replace(cases[name], inputs=np.array(numbers))))
+    return ", ".join(f"{what} {error:.2e}" for what, error in zip(ORDERS, found.errors, strict=True))
+
+
 # A result as a table for the terminal or the manual, and as JSON.
 
 TITLES = (
@@ -267,7 +336,8 @@ _BESIDE = "What is recorded was measured once, on the machine that `linkanim man
 def as_text(result: Result) -> str:
     """Return the machine and the tables in aligned columns."""
     tables = [f"{name}\n{columns([TITLES, *rows])}" for name, rows in _by_mechanism(result)]
-    return "\n\n".join([result.machine.line, *tables, _note(result)])
+    parts = [result.machine.line, *tables, _note(result), columns([FURTHER, *_further_lines(result)])]
+    return "\n\n".join([*parts, "\n".join(["worst errors", *witnesses(result)])])
 
 
 def as_markdown(result: Result) -> str:
@@ -276,6 +346,13 @@ def as_markdown(result: Result) -> str:
     rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
     told = f"{_note(result)} Measured on {result.day} on {result.machine.line}.\n"
     return f"{markdown([TITLES, *rows])}\n\n{told}"
+
+
+FURTHER = ("beyond one linkage's poses", "ns each", "worst error")
+
+
+def _further_lines(result: Result) -> list[Sequence[str]]:
+    return [(one.words, _time(one.ns), f"{one.error:.1e}") for one in result.further]
 
 
 def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:
@@ -318,5 +395,7 @@ def _errors(score: Score) -> str:
 
 def as_json(result: Result) -> str:
     """Return one JSON object: the machine, and the rows with every case; null for a missing number."""
-    found = {"machine": result.machine._asdict(), "rows": [asdict(row) for row in result.rows]}
+    further = [asdict(row) for row in result.further]
+    rows = [asdict(row) for row in result.rows]
+    found = {"machine": result.machine._asdict(), "rows": rows, "further": further}
     return json_text(found, indent=2)

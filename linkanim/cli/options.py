@@ -957,6 +957,12 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _flag("--json", "print one object with every case of every method"),
             _flag("--markdown", "print the table as it is in the manual"),
         ),
+        _takes(
+            "--again",
+            nargs="+",
+            metavar="NAME",
+            help="print an error once more: its case, and its inputs as hexadecimal floats",
+        ),
         _value(
             "--into FOLDER", Path, "where speed-vs-error.png goes (default: recordings)", Path("recordings")
         ),

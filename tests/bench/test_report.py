@@ -94,12 +94,12 @@ def test_each_method_of_the_manual_s_table_has_a_colour_of_its_own_in_the_chart(
 
 def test_the_json_is_strict_and_whole() -> None:
     found = json.loads(report.as_json(result()), parse_constant=pytest.fail)
-    assert list(found) == ["machine", "rows"]
+    assert list(found) == ["machine", "rows", "further"]
     batch_row, newton, press = found["rows"]
     assert (batch_row["ns_position"], batch_row["ns_derivatives"]) == (9.31, 22.5)
     assert press["mechanism"] == "press"
     rates = {"velocity_error": None, "acceleration_error": 2.0}
-    assert batch_row["hard"] == {"poses": 5198, "error": 8.5e-16, **rates, "wrong": 0, "nan": 0}
+    assert batch_row["hard"] == {"poses": 5198, "error": 8.5e-16, **rates, "wrong": 0, "nan": 0, "at": []}
     assert newton["ns_derivatives"] is None
     assert newton["cases"]["a hard case"]["error"] is None
 

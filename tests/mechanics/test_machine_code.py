@@ -142,7 +142,7 @@ def test_joints_alone_of_a_linkage_that_a_cylinder_drives_are_the_same_bits(
 
 
 @installed
-@pytest.mark.parametrize("form", ["triad", "double butterfly"])
+@pytest.mark.parametrize("form", ["triad", pytest.param("double butterfly", marks=pytest.mark.slow)])
 def test_links_that_are_solved_together_are_the_same_bits(form: str, both: Check) -> None:
     solved = scene_from(document(form, 0), name=form, where=form)
     both(lambda: solved.solve(phase=PHASES))  # by angle an arc tangent gives the phase
