@@ -330,9 +330,10 @@ class Scene:
 
     def check_turns(self, what: str, places: NDArray[np.float64]) -> None:
         """Raise BadInput for phases or angles (rad) so large that a pose would not have all its digits."""
-        flat = places.ravel()
-        # the sum of squares takes least time; of many numbers it would wait for threads of its own
-        if flat.size <= 8192 and flat.dot(flat) <= self._most**2:
+        flat, most = places.ravel(), self._most**2
+        # sums of squares take least time; of more numbers at once they would wait for threads of their own
+        parts = (flat[first : first + 8192] for first in range(0, flat.size, 8192))
+        if all(part.dot(part) <= most for part in parts):
             return
         size = max(float(flat.max()), -float(flat.min()))
         if size > self._most:
