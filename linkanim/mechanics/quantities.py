@@ -231,10 +231,15 @@ def _registered(
     return MappingProxyType({quantity.token: quantity for quantity in found})
 
 
-def recorded(linkage: Linkage) -> Iterator[Quantity]:
-    """Yield the quantities of JSON and CSV, with those of fixed pins and with forces that are not known."""
-    found = _quantities(linkage, NO_NAMES, _carriers(linkage), still=True)
-    return (quantity for quantity in found if quantity.path)
+def recorded(linkage: Linkage) -> tuple[Quantity, ...]:
+    """Return the quantities of JSON and CSV, with those of fixed pins and with forces that are not known."""
+    return _recorded(linkage.unsized, _carriers(linkage))
+
+
+@lru_cache(maxsize=16)
+def _recorded(linkage: Linkage, carriers: _Carriers) -> tuple[Quantity, ...]:
+    found = _quantities(linkage, NO_NAMES, carriers, still=True)
+    return tuple(quantity for quantity in found if quantity.path)
 
 
 def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:

@@ -56,7 +56,6 @@ from linkanim.scenes.file_form import (
     refuse_misplaced,
 )
 from linkanim.scenes.form import POINT, Context, Field, Key, Table, fields_in
-from linkanim.scenes.links import as_joints
 from linkanim.scenes.scene import FREE_STYLE, Scene
 from linkanim.scenes.toml import Keys, line_numbers, parse
 
@@ -410,6 +409,8 @@ def _read_points(
         if key in top:
             way_out = "list the fixed points in links.ground" if key == GROUND else "keep one of them"
             problems.append(top.error(key, f"does not go with [points]; {way_out}"))
+    from linkanim.scenes.links import as_joints
+
     found = None if problems else as_joints(top)
     if found is None:
         return None, problems
