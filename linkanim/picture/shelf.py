@@ -27,6 +27,7 @@ from linkanim.picture.text import Type, hyphened, letters
 from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
+from linkanim.scenes.files import opened
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -256,12 +257,19 @@ class ShelfPrinter:
         try:
             entry = file.name if file else shelf.browsing.entries[n]
             if self._read is None or self._read[0] != n:
-                self._read = n, load(Path(entry) if file else entry) if isinstance(entry, str) else entry
+                self._read = n, _entered(entry, is_file=file is not None)
                 return 0
             self._live[n] = Live(Picture(self._read[1], size, look))
         except LinkanimError:
             self._unread.add(n)
         return _BESIDE_A_NEW_ONE
+
+
+def _entered(entry: str | Scene, *, is_file: bool) -> Scene:
+    """Return the scene of an entry: itself, a name's, or a file's; errors as `opened`."""
+    if isinstance(entry, Scene):
+        return entry
+    return opened(Path(entry))[0] if is_file else load(entry)
 
 
 def _due(live: dict[int, Live], found: Grid, shelf: Shelf, others: int) -> list[int]:

@@ -22,9 +22,8 @@ from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import png_bytes
 from linkanim.player.building import DRAFT, offered, stored_text
 from linkanim.player.state import BuildSheet, State
-from linkanim.scenes import load
 from linkanim.scenes.editing import under_class
-from linkanim.scenes.files import in_its_form
+from linkanim.scenes.files import in_its_form, opened
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content
 from linkanim.units import shown as quoted
@@ -139,9 +138,9 @@ class SceneFile:
         return [f"{name} has changed; F5 loads it"]
 
     def load(self) -> Scene:
-        """Read the file as it is now; errors as `scenes.load`."""
+        """Read the file as it is now; errors as `scenes.files.opened`."""
         self._seen = self._state()
-        return load(self.path)
+        return opened(self.path)[0]
 
     def _state(self) -> tuple[int, int, int] | None:
         """Return numbers that change when the file is written anew; None where there is no file."""
@@ -211,17 +210,19 @@ def open_folder(text: str) -> None:
 
 
 _MOST_FILES = 300
+OPENED = (".toml", ".linkage2", ".motiongen", ".pyslvs")
+"""The endings of files that stand on the shelf; a table, or a text, may be anything."""
 
 
 def scene_files() -> tuple[OwnFile, ...]:
-    """Return the scene files in the current folder, the newest first; none where the folder is gone.
+    """Return files of linkages in the current folder, the newest first; none where the folder is gone.
 
     At most the newest three hundred are returned.
     """
     found: list[tuple[float, str]] = []
     with suppress(OSError), os.scandir() as entries:
         for one in entries:
-            if one.name.endswith(".toml") and one.name.isprintable():
+            if one.name.lower().endswith(OPENED) and one.name.isprintable():
                 with suppress(OSError):
                     found.append((-one.stat().st_mtime, one.name))
     return tuple(OwnFile(name, _date(-newest)) for newest, name in sorted(found)[:_MOST_FILES])

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Literal, Protocol
 import pygame
 from pygame.event import Event
 
-from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Hover, OwnFile
@@ -41,8 +40,8 @@ from linkanim.player.screen import Screen
 from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
-from linkanim.scenes import load
-from linkanim.scenes.files import is_lesson, path_of
+from linkanim.scenes import load, names
+from linkanim.scenes.files import is_lesson, opened, path_of
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -482,11 +481,15 @@ class Window:
             self._lesson = Lesson(path)
             self.state = carried(self.state, self._lesson.on(1))
             return
-        if path.suffix.lower() != ".toml":
-            raise BadInput(f"{intake.named(path)}: is no scene file, whose name ends in .toml")
-        scene = load(path)
+        scene, left_out = opened(path)
         self._file = SceneFile(path)
         self.state = renewed(left(leave(self.state)), scene)
+        self.note_left_out(left_out)
+
+    def note_left_out(self, left_out: Sequence[str]) -> None:
+        """Say what of another program's file is not in its scene."""
+        if left_out:
+            self._notes.append(f"left out of it: {'; '.join(left_out)}")
 
     def _reload(self) -> None:
         """Show the scene file as it is now; where it is wrong a note says so, and the linkage runs on."""
@@ -605,6 +608,9 @@ def run(
     """
     tape = _tape(scene, keeper)
     lesson = Lesson(Path(scene)) if isinstance(scene, str | os.PathLike) and is_lesson(scene) else None
+    file, left_out = None if tape or lesson else _file(scene), tuple[str, ...]()
+    if file and isinstance(scene, str | os.PathLike):
+        scene, left_out = opened(scene)
     state = tape.begun if tape else begin(lesson.steps[0].scene if lesson else scene, look=look)
     reduced = reduces_motion() if reduced_motion is None else reduced_motion
     state = replace(state, games=keeper.game_of if keeper else None, reduced_motion=reduced)
@@ -616,8 +622,8 @@ def run(
     with screen.opened(size) as connection:
         state = replace(state, from_title=attract or scene is None, kiosk=attract)
         kept = DraftFile(drafts) if drafts and not tape else None
-        file = None if tape or lesson else _file(scene)
         window = Window(state, tape, file, keeper, kept, offer=photo is None, lesson=lesson)
+        window.note_left_out(left_out)
         if lesson:
             window.state = carried(window.state, lesson.on(1))
         if sheet:
@@ -662,8 +668,11 @@ def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterato
 
 
 def _file(scene: object) -> SceneFile | None:
-    path = path_of(scene) if isinstance(scene, str | os.PathLike) else None
-    return SceneFile(path) if path else None
+    if not isinstance(scene, str | os.PathLike):
+        return None
+    path, known = Path(scene), path_of(scene)
+    is_own = path.suffix.lower() in files.OPENED or (path.is_file() and scene not in names())
+    return SceneFile(path) if known or is_own else None
 
 
 def _tape(scene: object, keeper: GameKeeper | None) -> Tape | None:

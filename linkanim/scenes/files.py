@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError, SceneError
@@ -102,6 +103,44 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     if "step" in document:
         raise SceneError(f"{where}: is a lesson, not a scene; `linkanim play` and `linkanim record` take it")
     return _photographed(scene_from(document, name=intake.named(path.stem), where=where), path.parent)
+
+
+class ForeignDocument(NamedTuple):
+    """The document of a linkage of another program, the words for its file, and what of it was left out."""
+
+    document: dict[str, Any]
+    where: str
+    left_out: tuple[str, ...]
+
+
+def foreign_document(name_or_path: str | os.PathLike[str]) -> ForeignDocument | None:
+    """Return the document of another program's file, or link; None for a scene file, or a name.
+
+    BadInput, with what it seems to be, for a file that cannot be read so.
+    """
+    from linkanim.scenes.foreign import is_link, read_foreign, read_text
+
+    text, path = os.fspath(name_or_path), Path(name_or_path)
+    if is_link(text):
+        found = read_text(text, "the link")
+        return ForeignDocument(found.document("link", "converted from a link"), "the link", found.left_out)
+    if path.suffix.lower() == ".toml" or not (path.suffix or path.is_file()):
+        return None
+    where = intake.named(path)
+    found = read_foreign(path, where)
+    title, source = intake.named(path.stem), f"converted from {intake.named(path.name)}"
+    return ForeignDocument(found.document(title, source), where, found.left_out)
+
+
+def opened(name_or_path: str | os.PathLike[str]) -> tuple[Scene, tuple[str, ...]]:
+    """Return the scene of a name, a scene file, or another program's file, and what was left out of that."""
+    from linkanim.scenes.reading import scene_from
+
+    foreign = foreign_document(name_or_path)
+    if foreign is None:
+        return load(name_or_path), ()
+    document, where, left_out = foreign
+    return scene_from(document, name=document["title"], where=where), left_out
 
 
 def _photographed(scene: Scene, folder: Path) -> Scene:

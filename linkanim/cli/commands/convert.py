@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from argparse import Namespace
 from dataclasses import replace
-from pathlib import Path
 
-from linkanim import intake
 from linkanim.atomic_files import checked_target, replacing
-from linkanim.scenes.files import load, with_points
-from linkanim.scenes.foreign import is_link, read_foreign, read_text
+from linkanim.scenes.files import foreign_document, load, with_points
+from linkanim.scenes.foreign import is_link
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import text
@@ -27,15 +25,11 @@ def run(options: Namespace) -> None:
 
 
 def _converted(name: str, title: str) -> tuple[Scene, tuple[str, ...]]:
+    foreign = foreign_document(name)
+    if foreign is None:
+        return with_points(load(name)), ()
+    document, where, left_out = foreign
     if is_link(name):
-        found = read_text(name, "the link")
-        document = found.document(title, "converted from a link")
-        return replace(scene_from(document, name=title, where="the link"), document=document), found.left_out
-    path = Path(name)
-    if path.suffix.lower() != ".toml" and (path.suffix or path.is_file()):
-        where = intake.named(path)
-        found = read_foreign(path, where)
-        document = found.document(path.stem, f"converted from {path.name}")
-        made = scene_from(document, name=title, where=where)
-        return replace(made, document=document), found.left_out
-    return with_points(load(name)), ()
+        document["title"] = title
+    made = scene_from(document, name=title, where=where)
+    return replace(made, document=document), left_out
