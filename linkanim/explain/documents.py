@@ -147,17 +147,6 @@ _STYLE = f"""{body_style("16px/1.5", 56)}\
 h1 {{ font-size: 1.8rem; margin: 0; }} p {{ margin: .3rem 0; }} sub {{ line-height: 0; }}
 h2 {{ font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }}
 h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoid; }}
-.key {{ break-before: page; }}
-.signed {{ display: flex; gap: 1.5rem; margin: .8rem 0; }} .signed span {{ flex: 1;
-  border-bottom: 1px solid #57606a; }}
-.signed span:first-child {{ flex: 2; }}
-.task {{ display: grid; grid-template-columns: 3fr 1.3fr; gap: 0 1.2rem; align-items: start; }}
-.task ul.given {{ columns: 1 !important; padding: 0; margin: 0; }} .task figure.vectors {{ margin: 0; }}
-.question {{ display: flex; flex-direction: column; break-inside: avoid; margin: .8rem 0 0; }}
-.question .room {{ flex: 1; min-height: 5rem; }}
-.marks {{ float: right; color: #57606a; padding-left: 1rem; }}
-.hint {{ color: #57606a; }}
-.answers {{ display: flex; flex-wrap: wrap; gap: .3rem 1.6rem; }} .answers span {{ white-space: nowrap; }}
 @page {{ size: A4; margin: 11mm 13mm; }}
 @media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 8.5pt; line-height: 1.2; }}
   h1 {{ font-size: 15pt; }} h2 {{ font-size: 11.5pt; margin: .4rem 0 .1rem; border-width: 1px; }}
@@ -168,11 +157,25 @@ h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoi
   .steps {{ display: grid; grid-template-columns: 1fr 1fr; gap: 0 1rem; align-items: start; }}
   .steps > .wide {{ grid-column: 1 / -1; }} .steps > .short {{ break-inside: avoid; }}
   ul.given {{ columns: 3 !important; }} ul.results {{ columns: 5 !important; }}
-  figure.vectors svg {{ max-height: 66mm; width: auto; }}
-  .page {{ display: flex; flex-direction: column; min-height: 272mm; break-after: page; }}
-  .page p, .page li {{ font-size: 10pt; line-height: 1.3; }} .question .room {{ min-height: 12mm; }}
-  .task figure.vectors svg {{ width: 100%; max-height: 95mm; }} .page .answers math {{ font-size: 11pt; }} }}
+  figure.vectors svg {{ max-height: 66mm; width: auto; }} }}
 """
+_SHEET = """
+.key { break-before: page; }
+.signed { display: flex; gap: 1.5rem; margin: .8rem 0; } .signed span { flex: 1;
+  border-bottom: 1px solid #57606a; }
+.signed span:first-child { flex: 2; }
+.task { display: grid; grid-template-columns: 3fr 1.3fr; gap: 0 1.2rem; align-items: start; }
+.task ul.given { columns: 1 !important; padding: 0; margin: 0; } .task figure.vectors { margin: 0; }
+.question { display: flex; flex-direction: column; break-inside: avoid; margin: .8rem 0 0; }
+.question .room { flex: 1; min-height: 5rem; }
+.marks { float: right; color: #57606a; padding-left: 1rem; }
+.hint { color: #57606a; }
+.answers { display: flex; flex-wrap: wrap; gap: .3rem 1.6rem; } .answers span { white-space: nowrap; }
+@media print { .page { display: flex; flex-direction: column; min-height: 272mm; break-after: page; }
+  .page p, .page li { font-size: 10pt; line-height: 1.3; } .question .room { min-height: 12mm; }
+  .task figure.vectors svg { width: 100%; max-height: 95mm; } .page .answers math { font-size: 11pt; } }
+"""
+"""The style of an exercise's sheets."""
 _MATH = """
 math { font-family: "Linkanim Math", "Latin Modern Math", "STIX Two Math", math; }
 math[display=block] { width: fit-content; max-width: 100%; margin: .35rem 0 .35rem 1rem;
@@ -367,8 +370,10 @@ def short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
 
 
 def _html_page(title: str, body: str) -> str:
-    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}{math_style()}</style>"
-    script = f"<script>{_LIGHTS}</script>\n" if " data-i=" in body else ""
+    style = _STYLE + _SHEET if "class='page'" in body else _STYLE
+    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{style}{math_style()}</style>"
+    lights = "\n".join(map(str.strip, _LIGHTS.splitlines()[2:]))
+    script = f"<script>{lights}</script>\n" if " data-i=" in body else ""
     inside = f"<body>\n<main>\n{body}\n</main>\n{script}</body>"
     return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
 
@@ -410,7 +415,7 @@ def _html_words(text: str) -> str:
 
 def _html_aligned(found: list[EquationRow]) -> str:
     cells = "".join(f"<mtr><mtd>{row.left}</mtd><mtd><mo>=</mo>{row.right}</mtd></mtr>" for row in found)
-    return f"<math display='block'><mtable class='rows' displaystyle='true'>{cells}</mtable></math>"
+    return f"<math display=block><mtable class=rows displaystyle=true>{cells}</mtable></math>"
 
 
 def _html_listed(found: list[tuple[str, str]]) -> str:

@@ -438,9 +438,9 @@ def _mathml_index(text: str) -> str:
 
 
 def _mathml_symbol(symbol: Symbol) -> str:
-    letter = ("<mi class='v'>" if symbol.bold else "<mi>") + f"{symbol.letter}</mi>"
+    letter = ("<mi class=v>" if symbol.bold else "<mi>") + f"{symbol.letter}</mi>"
     if symbol.mark in ("˙", "¨"):
-        letter = f"<mover accent='true'>{letter}<mo>{symbol.mark}</mo></mover>"
+        letter = f"<mover accent=true>{letter}<mo>{symbol.mark}</mo></mover>"
     index = _mathml_index(symbol.sub) if symbol.sub else ""
     prime = f"<mo>{symbol.mark}</mo>" if symbol.mark in ("′", "″") else ""
     kind = "m" + "sub" * bool(index) + "sup" * bool(prime)
@@ -448,34 +448,45 @@ def _mathml_symbol(symbol: Symbol) -> str:
 
 
 def _mathml_number(shown: str, degrees: bool) -> str:
-    minus, digits = ("<mo form='prefix'>−</mo>", shown[1:]) if shown.startswith("-") else ("", shown)
-    return f"{minus}<mn>{digits}</mn>" + ("<mo class='u'>°</mo>" if degrees else "")
+    minus, digits = ("<mo form=prefix>−</mo>", shown[1:]) if shown.startswith("-") else ("", shown)
+    return f"{minus}<mn>{digits}{'°' if degrees else ''}</mn>"
 
 
 def _mathml_unit(unit: str) -> str:
     if unit in ("", "°"):
-        return unit and "<mo class='u'>°</mo>"
-    return f"<mspace width='.17em'/><mtext>{escape(unit)}</mtext>"
+        return unit and "<mo class=u>°</mo>"
+    return f"<mtext>\u00a0{escape(unit)}</mtext>"
 
 
-_THIN = "<mspace width='.12em'/>"
+_THIN = "<mo rspace=.12em>{}</mo>"
+_ENDS = re.compile(r"<(/?)\w[^>]*?(/?)>")
+
+
+def _one(markup: str) -> str:
+    """Return a formula as one element: in a row, unless it is one."""
+    depth = 0
+    for tag in _ENDS.finditer(markup):
+        depth += -1 if tag[1] else 0 if tag[2] else 1
+        if not depth:
+            return markup if tag.end() == len(markup) else f"<mrow>{markup}</mrow>"
+    return f"<mrow>{markup}</mrow>"
 
 
 def _mathml_call(name: str, parts: Sequence[str]) -> str:
     if name == "atan2":
         parts = [f"<mo>(</mo>{'<mo>,</mo>'.join(parts)}<mo>)</mo>"]
-    return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo>{_THIN}<mrow>{parts[0]}</mrow></mrow>"
+    return f"<mi>{name}</mi>{_THIN.format(chr(0x2061))}{_one(parts[0])}"
 
 
-_SIGNS = {sign: f"<mo>{sign.replace('-', '−')}</mo>" for sign in "·+-="} | {"": f"<mo>\u2062</mo>{_THIN}"}
+_SIGNS = {sign: f"<mo>{sign.replace('-', '−')}</mo>" for sign in "·+-="} | {"": _THIN.format("\u2062")}
 
 MATHML = Notation(
     symbol=_mathml_symbol,
     number=_mathml_number,
     infix=lambda sign, a, b: f"{a}{_SIGNS[sign]}{b}",
-    fraction=lambda a, b: f"<mfrac><mrow>{a}</mrow><mrow>{b}</mrow></mfrac>",
+    fraction=lambda a, b: f"<mfrac>{_one(a)}{_one(b)}</mfrac>",
     root=lambda a: f"<msqrt>{a}</msqrt>",
-    squared=lambda a: f"<msup><mrow>{a}</mrow><mn>2</mn></msup>",
+    squared=lambda a: f"<msup>{_one(a)}<mn>2</mn></msup>",
     call=_mathml_call,
     group=lambda a: f"<mrow><mo>(</mo>{a}<mo>)</mo></mrow>",
     unit=_mathml_unit,

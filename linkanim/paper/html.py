@@ -15,6 +15,7 @@ from typing import Literal
 from linkanim.explain.documents import body_style, math_style
 from linkanim.frozen import frozen
 from linkanim.paper.findings import Column, Finding, ValueTable
+from linkanim.paper.svg import RIMMED, in_steps
 from linkanim.units import signed
 
 _STYLE = f"""
@@ -73,7 +74,8 @@ def embedded(picture: str, title: str, style: str = "") -> str:
     """Return an SVG as part of a page: its parts without ids, the whole with a title to be read aloud."""
     drawn = _ATTRIBUTES.sub("", picture[picture.index("<svg ") :])
     spoken = f"<svg role='img' aria-label='{escape(title)}' " + (f"style='{style}' " if style else "")
-    return drawn.replace("<svg ", spoken, 1)
+    # all words have such rims: it is said once
+    return in_steps(drawn.replace(RIMMED, "")).replace("<svg ", spoken + RIMMED.lstrip() + " ", 1)
 
 
 @frozen

@@ -5,8 +5,9 @@ A program that shows it in another face sets each line as wide as ours, so that 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from itertools import count
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import count, pairwise
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
@@ -17,6 +18,8 @@ from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.text import SEMIBOLD, runs, typesetting
 
 FACES = f"'{FAMILY}', '{FURTHER}', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
+RIMMED = ' stroke-linejoin="round" paint-order="stroke"'
+"""How the rims of words are drawn: round, and below their letters."""
 _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
 _SUBSCRIPT_RIM = 0.05
 """The width of a subscript's rim at most, as a share of an em: less than what is between two letters."""
@@ -123,7 +126,7 @@ def _rim(line: Caption, paint: Paint) -> str:
     if line.halo is None:
         return ""
     rim = f'stroke="{paint(line.halo.colour)}" stroke-width="{2 * line.halo.width:.2f}"'
-    return f' {rim} stroke-linejoin="round" paint-order="stroke"'
+    return f" {rim}{RIMMED}"
 
 
 def _lowered(line: Caption) -> str:
@@ -146,3 +149,45 @@ def _spans(line: Caption) -> Iterator[str]:
         small = _lowered(line) if run.lowered else ""
         yield f'<tspan dy="{shift:.2f}"{small}>{escape(run.text)}</tspan>'
         lowered = run.lowered
+
+
+# Outlines by steps.
+
+_PATHS, _LOOP = re.compile(r' d="M[^"]*"'), re.compile("M([^MZ]*)Z")
+_NEEDLESS = re.compile(r" (?=-)|(?<=\.\d) (?=\.)|(?<=\.\d\d) (?=\.)")
+"""The blanks before a minus, and before a point where the number before it has one."""
+_UNSEEN = 0.02
+"""How far off an outline may be that goes by steps, in pixels."""
+
+
+def in_steps(markup: str) -> str:
+    """Return SVG whose outlines go from point to point by steps: in half the characters, for a page."""
+    return _PATHS.sub(lambda path: _LOOP.sub(_stepwise, path[0]), markup)
+
+
+def _stepwise(loop: re.Match[str]) -> str:
+    points = _thinned([complex(*map(float, point.split())) for point in loop[1].split("L")])
+    ways = (to - one for one, to in pairwise(points))
+    short = " ".join(_number(part) for way in ways for part in (way.real, way.imag))
+    short = _NEEDLESS.sub("", short)
+    return f"M{points[0].real:g} {points[0].imag:g}" + (f"l{short}Z" if short else "Z")
+
+
+def _thinned(points: Sequence[complex]) -> list[complex]:
+    """Return a line without the points that lie on it but for `_UNSEEN` (Ramer, 1972)."""
+    begin, end, inner = points[0], points[-1], points[1:-1]
+    if not inner:
+        return list(points)
+    way = end - begin
+    shares = ((point - begin) / way if way else 0j for point in inner)
+    feet = (begin + way * min(max(share.real, 0.0), 1.0) for share in shares)
+    offs = [abs(point - foot) for point, foot in zip(inner, feet, strict=True)]
+    far = 1 + offs.index(max(offs))
+    if offs[far - 1] <= _UNSEEN:
+        return [begin, end]
+    return [*_thinned(points[: far + 1])[:-1], *_thinned(points[far:])]
+
+
+def _number(step: float) -> str:
+    text = f"{round(step, 2) + 0.0:g}"  # -0.0 + 0.0 is 0.0
+    return text.replace("0.", ".", 1) if text.startswith(("0.", "-0.")) else text

@@ -9,11 +9,9 @@ from __future__ import annotations
 
 import base64
 import math
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,7 +19,7 @@ from numpy.typing import NDArray
 
 from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
-from linkanim.paper.svg import drawn, flat, hexadecimal
+from linkanim.paper.svg import RIMMED, drawn, flat, hexadecimal, in_steps
 from linkanim.picture.bodies import WHEELS
 from linkanim.picture.dimensions import pivots
 from linkanim.picture.figure import DOWN
@@ -158,44 +156,8 @@ def _width_along(layer: Layer, line: Layer) -> float | None:
 
 
 def _shorter(element: str) -> str:
-    """Return a path with relative coordinates, in half the characters, and words without the style's."""
-    return _LOOP.sub(_stepwise, element) if element.startswith("<path") else element.replace(_RIMMED, "")
-
-
-def _stepwise(loop: re.Match[str]) -> str:
-    points = _thinned([complex(*map(float, point.split())) for point in loop[1].split("L")])
-    ways = (to - one for one, to in pairwise(points))
-    short = " ".join(_number(part) for way in ways for part in (way.real, way.imag))
-    short = _NEEDLESS.sub("", short)
-    return f"M{points[0].real:g} {points[0].imag:g}" + (f"l{short}Z" if short else "Z")
-
-
-def _thinned(points: Sequence[complex]) -> list[complex]:
-    """Return a line without the points that lie on it but for `_UNSEEN` (Ramer, 1972)."""
-    begin, end, inner = points[0], points[-1], points[1:-1]
-    if not inner:
-        return list(points)
-    way = end - begin
-    shares = ((point - begin) / way if way else 0j for point in inner)
-    feet = (begin + way * min(max(share.real, 0.0), 1.0) for share in shares)
-    offs = [abs(point - foot) for point, foot in zip(inner, feet, strict=True)]
-    far = 1 + offs.index(max(offs))
-    if offs[far - 1] <= _UNSEEN:
-        return [begin, end]
-    return [*_thinned(points[: far + 1])[:-1], *_thinned(points[far:])]
-
-
-def _number(step: float) -> str:
-    text = f"{round(step, 2) + 0.0:g}"  # -0.0 + 0.0 is 0.0
-    return text.replace("0.", ".", 1) if text.startswith(("0.", "-0.")) else text
-
-
-_LOOP = re.compile("M([^MZ]*)Z")
-_NEEDLESS = re.compile(r" (?=-)|(?<=\.\d) (?=\.)|(?<=\.\d\d) (?=\.)")
-"""The blanks before a minus, and before a point where the number before it has one."""
-_RIMMED = ' stroke-linejoin="round" paint-order="stroke"'
-_UNSEEN = 0.02
-"""How far off an outline may be, in pixels of the picture: 0.08 at 3840 × 2160."""
+    """Return a path in half the characters, and words without what the page's style says."""
+    return in_steps(element).replace(RIMMED, "")
 
 
 # The paths of joints in pixels, as nodes between which a quintic is close enough for the largest screens.

@@ -167,8 +167,9 @@ def of_latex(text: str) -> list[list[str]]:
 def of_html(text: str) -> list[list[str]]:
     """Return the equations of a page, its MathML turned into LaTeX."""
     found: list[list[str]] = []
-    for math_element in re.findall(r"<math display='block'>.*?</math>", text, re.S):
-        for row in fromstring(math_element)[0]:
+    for math_element in re.findall(r"<math display=block>.*?</math>", text, re.S):
+        # a page needs no quotes about a word, XML does
+        for row in fromstring(re.sub(r"=([\w.]+)(?=[ >])", r"='\1'", math_element))[0]:
             left, right = ("".join(map(_tex, cell)) for cell in row)
             if left:
                 found.append([left])
@@ -199,6 +200,10 @@ def _tex(e: Element) -> str:
             return "\\operatorname{atan2}"
         case "mi" if text in ("cos", "sin", "arccos", "arcsin"):
             return f"\\{text} "
+        case "mn":
+            return text.replace("°", "^{\\circ}")
+        case "mtext" if (e.text or "").startswith("\u00a0"):
+            return f"\\,{text}"
         case "mo":
             return _SIGNS.get(text, text)
     return text + "".join(inside)

@@ -747,3 +747,16 @@ def test_a_sheet_speaks_as_a_textbook_does(name: str) -> None:
     assert [words for words in NOT_FOR_A_CLASS if words in text] == []
     # an article fits the word behind it
     assert not re.search(r"\ba (?:antip|eight|input|offset|inv)|\ban (?:crank|six|four|slider|rocker)", text)
+
+
+LARGEST = 200_000
+LARGER = {"scissor-lift": 290_000, "andrews": 260_000}
+"""Of nine dyads 65,000 bytes are words and numbers, and each of 1,900 symbols is three elements of MathML."""
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_page_is_small(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = tmp_path / "solution.html"
+    assert main(["explain", name, "-o", str(target)]) == 0
+    assert len(target.read_bytes()) <= LARGER.get(name, LARGEST)
