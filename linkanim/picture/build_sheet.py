@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import ceil
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
@@ -26,7 +27,7 @@ from linkanim.picture.items import SHEET, Caption, Group, Halo
 from linkanim.picture.layout import HEAD_STEP, Gauge, Layout, gauge, tool_cells
 from linkanim.picture.marks import beside, measure
 from linkanim.picture.motion_marks import turning_arrow
-from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, PathShown, Rubber, Snap
+from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, Rubber, Snap
 from linkanim.picture.photograph import Photograph
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Layer, Loop, paint
@@ -36,6 +37,9 @@ from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.units import significant
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.curves import DrawnCurve
 
 # A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles.
 
@@ -78,11 +82,9 @@ def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
     return sheet
 
 
-def drawn_line(setting: DrawSetting, shown: PathShown) -> Group:
+def drawn_line(setting: DrawSetting, pen: Sequence[complex], curve: DrawnCurve | None) -> Group:
     """Return the pencil's line, or the stroke while no linkage follows it; words where there is neither."""
-    points = (
-        np.array(shown.pen) if shown.pen else shown.curve.polyline if shown.curve else np.zeros(0, complex)
-    )
+    points = np.array(pen) if pen else curve.polyline if curve else np.zeros(0, complex)
     layout, theme, size = setting.layout, setting.theme, setting.layout.text_size
     if not points.size:
         at = layout.size[0] / 2, layout.size[1] / 2 - size
@@ -91,11 +93,10 @@ def drawn_line(setting: DrawSetting, shown: PathShown) -> Group:
     return Group("pencil", [Layer(theme.ink, line)])
 
 
-def dashed(setting: DrawSetting, shown: PathShown) -> Group:
+def dashed(setting: DrawSetting, curve: DrawnCurve) -> Group:
     """Return the stroke in dashes, wider than a trace."""
-    assert shown.curve
     width, theme = 2.6 * setting.gauge.line, setting.theme
-    line = _placed(setting.view, shown.curve.polyline)
+    line = _placed(setting.view, curve.polyline)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
     count = max(ceil(along[-1] / ((_DASH + _GAP) * width)), 1)
     ends = np.arange(count) * (along[-1] / count) + np.array([[0.0], [_DASH * width]])
@@ -104,17 +105,18 @@ def dashed(setting: DrawSetting, shown: PathShown) -> Group:
     return Group("stroke", [Layer(mixed(theme.ink, theme.background, 0.55), loops)], still=True)
 
 
-def handles(setting: DrawSetting, shown: PathShown) -> Iterator[Layer]:
+def handles(
+    setting: DrawSetting, curve: DrawnCurve, held: int | None, pins: Sequence[Point]
+) -> Iterator[Layer]:
     """Yield the marked points of a stroke, the one that is held, and rings about pivots that are held."""
-    assert shown.curve
     _, view, gauge, theme = setting.known
-    points, reach = _placed(view, shown.curve.points), 0.55 * gauge.bar
+    points, reach = _placed(view, curve.points), 0.55 * gauge.bar
     marked = points[:: max(len(points) // _HANDLES, 1)]
     yield Layer(theme.ink, [at + disc(reach) for at in marked])
     yield Layer(theme.background, [at + disc(0.6 * reach) for at in marked])
-    if shown.held is not None:
-        yield Layer(theme.velocity, [points[shown.held] + disc(1.5 * reach)])
-    for pin in shown.pins:
+    if held is not None:
+        yield Layer(theme.velocity, [points[held] + disc(1.5 * reach)])
+    for pin in pins:
         ring = view.place(pin) + disc(2.6 * gauge.bar)
         yield Layer(theme.velocity, stroke(ring, 1.6 * gauge.line, closed=True))
 

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.measures import as_complex
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.items import Caption, Halo, Item
+from linkanim.picture.figure import DrawSetting
+from linkanim.picture.items import Caption, Group, Halo, Item, grouped
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import disc, hull, segments, stroke
 from linkanim.picture.text import subscripted
@@ -30,6 +31,8 @@ _THICK, _EDGE = 5.0, 24.0
 _SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
 """How far a plate's shadow lies from it, in such pixels, and how dark it is: twice, for its soft edge."""
 _SHADE = (0, 0, 0)
+_THIN = 0.6
+"""The least thickness of lines of parts, in pixels of a page."""
 _LIFTED = 0.62
 """The share of the height in which layers are lifted."""
 _PHASES = 48
@@ -170,6 +173,16 @@ def _aslant(places: Loop, apart: float) -> Loop:
     return np.asarray(
         places.real + apart * _LEAN * places.imag + 1j * (1 - apart * (1 - _FLAT)) * places.imag
     )
+
+
+def in_layers(setting: DrawSetting, pose: Pose, parts: Layered, apart: float) -> Group:
+    """Return parts in their layers, lifted by a share of the stage, in the look's zoom and pan."""
+    layout, look = setting.layout, setting.look
+    view = LayerView.fitting(parts.reach, parts.layers, apart, layout.stage.inset(2 * layout.margin))
+    view = view.moved(layout.stage.middle, look.zoom, complex(*look.pan) * layout.size[1])
+    unit, pixel = setting.figure.scene.length_unit, max(layout.unit, _THIN)
+    items = lifted(parts, pose, unit, view, setting.theme, layout.small_size, pixel=pixel)
+    return grouped("layers", items)
 
 
 def lifted(

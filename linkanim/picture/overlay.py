@@ -7,10 +7,10 @@ These are data only; places are in the scene's unit, y up. Modules such as `pane
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Literal, Protocol, Self, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
@@ -21,7 +21,9 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
     from linkanim.build.places import Shape
-    from linkanim.picture.layered import Layered
+    from linkanim.mechanics.motion import Pose
+    from linkanim.picture.figure import DrawSetting
+    from linkanim.picture.items import Group
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
     from linkanim.synthesis.guidance import PoseAnswer
@@ -134,45 +136,22 @@ AXIS = 3.4
 """How long the x axis of a frame is, in lengths of `NEAR`."""
 
 
-@frozen
-class PosesShown:
-    """Poses that were set down: `frames` of x, y and angle (rad), and the fixed `pins` that are asked for.
+class Head(NamedTuple):
+    """A sentence at the picture's head, perhaps as a warning, and facts below it."""
 
-    `handles` are the points of the linkage that can be dragged, `bodies` its coupler in each pose. The thing
-    that was `taken` last is lit: "pose" or "pin" with its number. With `curves` poles and Burmester's curves
-    are drawn, coarsely while something is `held`. While it is `blank` no linkage is shown. `cursor` is the
-    keys' cursor.
-    """
-
-    frames: tuple[tuple[float, float, float], ...] = ()
-    pins: tuple[Point, ...] = ()
-    handles: tuple[Point, ...] = ()
-    bodies: tuple[tuple[Point, ...], ...] = ()
-    taken: tuple[str, int] | None = None
-    cursor: Point | None = None
-    curves: bool = False
-    held: bool = False
-    blank: bool = True
-    sentence: str = ""
+    sentence: str
     facts: tuple[str, ...] = ()
     is_warning: bool = False
 
 
-# A linkage in the layers in which it can be made.
+class ModeDrawing(Protocol):
+    """What an open mode draws into a picture, from its own data."""
 
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterable[Group]:
+        """Return what lies behind the linkage's bars."""
 
-@frozen
-class LayersShown:
-    """Parts in layers instead of the linkage, lifted off each other by a share of the room for it.
-
-    Without `parts` a sentence says what it waits for, or warns why there are none.
-    """
-
-    parts: Layered | None = None
-    apart: float = 0.0
-    sentence: str = ""
-    facts: tuple[str, ...] = ()
-    is_warning: bool = False
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterable[Group]:
+        """Return what lies over the linkage, or is drawn alone."""
 
 
 class SliderShown(NamedTuple):
@@ -394,25 +373,6 @@ class Shelf(NamedTuple):
     edited: frozenset[int] = frozenset()
 
 
-@frozen
-class PathShown:
-    """A drawn path: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
-
-    While it is `blank` no linkage is shown. `off` says how far the shown linkage is from the path. A point of
-    the curve may be `held`, and so may fixed `pins`; points are `marked` where they can be dragged. The
-    cognates numbered `cognates`, 0 and 1, are drawn faintly.
-    """
-
-    curve: DrawnCurve | None
-    pen: tuple[complex, ...] = ()
-    blank: bool = True
-    off: str | None = None
-    held: int | None = None
-    pins: tuple[Point, ...] = ()
-    marked: bool = True
-    cognates: tuple[int, ...] = ()
-
-
 class DialShown(NamedTuple):
     """Where a knob stands, from 0 at the left to 1, between two words; the track may have `marks`."""
 
@@ -567,6 +527,8 @@ class BandShown(NamedTuple):
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
+    Modes have what they have `drawn`, perhaps `alone`, on an empty sheet or the bare ground, in the linkage's
+    place. A `stroke` lies behind the linkage, which is `off` it by so much. `head` is said at the head.
     `construction` is how many steps of the scene's construction are drawn; a `band` lies round traces.
     Answers that are places have `spots` on the picture, in their order; a ram that is followed has its
     `lane`. The joints `handles` can be dragged. With `noted` the HUD says that a limit or a change point is
@@ -586,11 +548,13 @@ class Overlay:
     panel: Panel | None = None
     quantities: Quantities | None = None
     shelf: Shelf | None = None
-    path: PathShown | None = None
+    drawn: tuple[ModeDrawing, ...] = ()
+    alone: Literal["", "sheet", "bare"] = ""
+    stroke: DrawnCurve | None = None
+    off: str | None = None
+    head: Head | None = None
     row: AnswerRow | None = None
     build: BuildShown | None = None
-    poses: PosesShown | None = None
-    layers: LayersShown | None = None
     construction: int = 0
     band: BandShown | None = None
     slider: SliderShown | None = None
@@ -622,8 +586,7 @@ class Overlay:
     @property
     def hides_chart(self) -> bool:
         """Whether no chart is shown: on blank paper, under a draft or among parts in layers."""
-        blank = (self.path and self.path.blank) or (self.poses and self.poses.blank)
-        return bool(blank or (self.build and self.build.draft) or (self.layers and self.layers.parts))
+        return bool(self.alone or (self.build and self.build.draft))
 
 
 NOTHING_OVER = Overlay()

@@ -581,7 +581,7 @@ class Panels:
             right -= sheet.get_width() + 0.6 * size
         for sign, words, colour in (
             (_dot, overlay.recording, theme.warning),
-            (_wave, overlay.path.off if overlay.path else None, theme.ink),
+            (_wave, overlay.off, theme.ink),
         ):
             if words:
                 sheet = self._keep(_mark, (sign, words, colour), sign)

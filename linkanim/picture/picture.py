@@ -23,9 +23,7 @@ from linkanim.picture.overlay import (
     NOTHING_OVER,
     BandShown,
     Lane,
-    LayersShown,
     Overlay,
-    PathShown,
     SliderShown,
     SwingShown,
 )
@@ -39,13 +37,10 @@ from linkanim.scenes.editing import ghost_of, in_unit
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
-    from linkanim.picture.layered import Layered
     from linkanim.picture.polygons import Polygon
     from linkanim.synthesis.curves import DrawnCurve
 
 _NOTHING_STILL = Group("nothing", (), still=True)
-_THIN = 0.6
-"""The least thickness of lines of parts, in pixels of a page."""
 
 
 class Picture:
@@ -155,16 +150,9 @@ class Picture:
         faint: Sequence[Pose] = (),
     ) -> Iterator[Group]:
         """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
-        path = overlay.path
-        if path and path.blank:
-            yield from self._blank(path)
-            return
-        if overlay.poses and overlay.poses.blank:
-            yield self._sheet
-            yield from self._posed(overlay)
-            return
-        if overlay.layers and overlay.layers.parts:
-            yield from self._layers(pose, overlay.layers, overlay.layers.parts)
+        if overlay.alone:
+            yield self._sheet if overlay.alone == "sheet" else _NOTHING_STILL
+            yield from self._of_modes(pose, overlay)
             yield from self._slider(overlay.slider)
             return
         build = overlay.build
@@ -174,11 +162,11 @@ class Picture:
             yield paper(self.drawing.setting, build.photo)
             yield from drafted(build, build.draft, self.drawing.setting)
             return
-        if self.sheet and path is None:
+        if self.sheet and overlay.stroke is None:
             from linkanim.picture.build_sheet import paper
 
             yield paper(self.drawing.setting, build.photo if build else None)
-        yield from self._behind_at(pose.input_speed, path)
+        yield from self._behind_at(pose.input_speed, overlay.stroke)
         if overlay.lane:
             yield self._lane(overlay.lane)
         if overlay.band:
@@ -186,10 +174,8 @@ class Picture:
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
-        if path and path.cognates:
-            from linkanim.picture.cognates import cognate_group
-
-            yield from self._within([cognate_group(self.drawing.setting, pose, path.cognates)])
+        for mode in overlay.drawn:
+            yield from self._within(mode.behind(self.drawing.setting, pose))
         if self._moves_behind:
             yield from self._standing
         if overlay.swing:
@@ -223,24 +209,24 @@ class Picture:
         there, here = (self.drawing.places(one) for one in (left, pose))
         return {name: there[name] + swing.share * (place - there[name]) for name, place in here.items()}
 
-    def _blank(self, path: PathShown) -> Iterator[Group]:
-        """Yield the empty sheet and the pencil's line."""
-        from linkanim.picture.build_sheet import drawn_line
+    def _of_modes(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
+        """Yield what modes draw, and the words at the head, which hide nothing that can be grasped."""
+        groups = [one for mode in overlay.drawn for one in mode.groups(self.drawing.setting, pose)]
+        yield from self._within(one for one in groups if not one.over)
+        if overlay.head:
+            from linkanim.picture.build_sheet import worded
+            from linkanim.picture.slider import slider_rect
 
-        yield from (self._sheet, drawn_line(self.drawing.setting, path))
+            beside = slider_rect(self.layout) if overlay.slider else None
+            sentence, facts, warns = overlay.head
+            yield worded(self.drawing.setting, sentence, facts, is_warning=warns, beside=beside)
+        yield from self._within(one for one in groups if one.over)
 
     def _slider(self, shown: SliderShown | None) -> Iterator[Group]:
         if shown:
             from linkanim.picture.slider import slider
 
             yield from slider(self.drawing.setting, shown)
-
-    def _posed(self, overlay: Overlay) -> Iterator[Group]:
-        """Yield poses that were set down."""
-        from linkanim.picture.poses import posed
-
-        assert overlay.poses
-        yield from posed(self.drawing.setting, overlay.poses)
 
     def _constructed(self, steps: int, pose: Pose, leading: SliderShown | None) -> Iterator[Group]:
         """Yield the first steps of a construction, the words on the last of them, and a slider."""
@@ -258,20 +244,6 @@ class Picture:
         beside = slider_rect(self.layout) if leading else None
         yield worded(self.drawing.setting, shown.steps[-1].words, [facts], beside=beside)
         yield from self._slider(leading)
-
-    def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
-        """Yield the parts in their layers, in the room that is left below the words on them."""
-        from linkanim.picture.build_sheet import worded
-        from linkanim.picture.layered import LayerView, lifted
-        from linkanim.picture.slider import slider_rect
-
-        layout, stage = self.layout, self.layout.stage.inset(2 * self.layout.margin)
-        view = LayerView.fitting(parts.reach, parts.layers, shown.apart, stage)
-        view = view.moved(complex(*self.about), self.look.zoom, complex(*self.look.pan) * self.size[1])
-        text, unit, pixel = layout.small_size, self.scene.length_unit, max(layout.unit, _THIN)
-        yield _NOTHING_STILL
-        yield grouped("layers", lifted(parts, pose, unit, view, self.theme, text, pixel=pixel))
-        yield worded(self.drawing.setting, shown.sentence, shown.facts, beside=slider_rect(layout))
 
     def _band(self, shown: BandShown) -> Group:
         from linkanim.picture.marks import band
@@ -327,20 +299,20 @@ class Picture:
 
         return sheet(self.view, self.layout, self.theme)
 
-    def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
+    def _behind_at(self, speed: float, curve: DrawnCurve | None) -> tuple[Group, ...]:
         """Return what stands still behind all that moves; the chart and the key depend on the speed."""
-        known, curve = self._behind, path.curve if path else None
+        known = self._behind
         if not known or known[1] is not curve or (known[0] != speed and (self._chart or self._legend)):
-            self._behind = speed, curve, tuple(self._still_behind(speed, path))
+            self._behind = speed, curve, tuple(self._still_behind(speed, curve))
         assert self._behind
         return self._behind[2]
 
-    def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
+    def _still_behind(self, speed: float, curve: DrawnCurve | None) -> Iterator[Group]:
         yield from self._within([self._discs])
-        if path and path.curve:
+        if curve:
             from linkanim.picture.build_sheet import dashed
 
-            yield from self._within([dashed(self.drawing.setting, path)])
+            yield from self._within([dashed(self.drawing.setting, curve)])
         if not self._moves_behind:
             yield from self._standing
         if self._chart:
@@ -436,7 +408,7 @@ class Picture:
         """Yield the marks for the hand: on the chosen bar, and on the joint to be dragged."""
         if overlay == NOTHING_OVER:
             return
-        from linkanim.picture.build_sheet import hand, handles, loose, worded
+        from linkanim.picture.build_sheet import hand, loose
         from linkanim.picture.marks import glow, measure, spots
 
         if overlay.build:
@@ -445,19 +417,12 @@ class Picture:
             yield from hand(overlay.build, self.drawing.setting)
         if overlay.construction:
             yield from self._constructed(overlay.construction, pose, overlay.slider)
-        if overlay.layers:
-            sentence, warns = overlay.layers.sentence, overlay.layers.is_warning
-            yield worded(self.drawing.setting, sentence, is_warning=warns)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
             span = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * span for place in (shown.begin, shown.end))
             yield from measure(self.drawing.setting, begin, end, shown)
-        if overlay.path and overlay.path.curve and overlay.path.marked:
-            marks = list(handles(self.drawing.setting, overlay.path))
-            yield from self._within([Group("handles", marks, over=True)])
-        if overlay.poses:
-            yield from self._posed(overlay)
+        yield from self._of_modes(pose, overlay)
         for layers, words in spots(self.drawing.setting, overlay.spots, pose):
             yield Group("spot", layers, [words], over=True)
         if overlay.glow:  # the joint and the length that it changes do not overlap: they are filled together

@@ -22,7 +22,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import Intake, Section, control_in, refuse_controls
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar
+from linkanim.picture.overlay import Choice, GamePanel, Overlay, ScoreBar
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Box
 from linkanim.play.games import GameWords, begun
@@ -471,8 +471,7 @@ class MatchGame(Game):
             hint="drag joints (Shift: tenths)   Space runs   ← → turn   Ctrl+Z   ↑ ↓ level   Esc out",
         )
         handles = () if self.gave_up else self.free
-        path = PathShown(level.curve, blank=False, marked=False)
-        return replace(over, game=panel, path=path, handles=handles)
+        return replace(over, game=panel, stroke=level.curve, handles=handles)
 
     @property
     def _fixed(self) -> str:

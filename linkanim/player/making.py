@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
@@ -12,9 +12,10 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section
 from linkanim.mechanics.linkage import Linkage
+from linkanim.picture.items import Group
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
 from linkanim.picture.look import ConstructionKind, Look
-from linkanim.picture.overlay import LayersShown, Overlay, SliderShown
+from linkanim.picture.overlay import Head, Overlay, SliderShown
 from linkanim.picture.raster import Loop
 from linkanim.picture.shapes import disc, hull
 from linkanim.player import rules
@@ -36,6 +37,8 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
 if TYPE_CHECKING:
+    from linkanim.mechanics.motion import Pose
+    from linkanim.picture.figure import DrawSetting
     from linkanim.player.devices import Gesture, Mouse
     from linkanim.player.screen import Screen
 
@@ -290,13 +293,26 @@ class Layering(Mode):
         parts, refused = (self.parts, self.refused) if is_own else (None, "")
         if parts is None:
             waits = f"{state.scene.title}: looking for layers in which it can turn"
-            return replace(over, layers=LayersShown(sentence=refused or waits, is_warning=bool(refused)))
+            return replace(over, head=Head(refused or waits, is_warning=bool(refused)))
         times = "in true size" if parts.ratio == 1 else f"{significant(parts.ratio, 3)} times as large"
         on = f"{parts.layers} layer{'s' * (parts.layers != 1)} on the ground"
         facts = f"{len(parts.plates)} parts, {len(parts.pins)} pins, {times}", "Enter writes the parts"
-        shown = LayersShown(parts, self.lifted / LIFTED, f"{self.scene.title}: {on}", facts)
         slider = SliderShown("layers", "flat", "lifted", LIFTED, self.lifted)
-        return replace(over, layers=shown, slider=slider)
+        return replace(
+            over, drawn=(self,), alone="bare", head=Head(f"{self.scene.title}: {on}", facts), slider=slider
+        )
+
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield nothing: the parts stand in the linkage's place."""
+        del setting, pose
+        yield from ()
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the parts in their layers."""
+        if self.parts:
+            from linkanim.picture.layered import in_layers
+
+            yield in_layers(setting, pose, self.parts, self.lifted / LIFTED)
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Shift the parts, which have no crank pin to drag; None where the mouse acts as usual."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import degrees, hypot
@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, ClassVar
 from linkanim.build.places import from_span
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import AnswerRow, DialShown, Overlay, PathShown
+from linkanim.picture.items import Group
+from linkanim.picture.overlay import AnswerRow, DialShown, Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.dial import dial as turn_dial
@@ -47,6 +48,8 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
 if TYPE_CHECKING:
+    from linkanim.mechanics.motion import Pose
+    from linkanim.picture.figure import DrawSetting
     from linkanim.player.devices import Drag, Gesture, Mouse
     from linkanim.player.screen import Screen
     from linkanim.synthesis.answers import PathAnswer
@@ -281,7 +284,8 @@ def _off(sketch: PathSketch) -> str | None:
 
 def cognate_at(screen: Screen, x: float, y: float, reach: float) -> int | None:
     """Return the place of the cognate under a pixel among those that are drawn; None elsewhere."""
-    numbers = screen.over.path.cognates if screen.over.path else ()
+    sketch = screen.state.of(Pencil)
+    numbers = sketch.cognate_numbers if sketch else ()
     if not numbers:
         return None
     from linkanim.picture.cognates import cognate_sides
@@ -356,13 +360,35 @@ class Pencil(Sketching, PathSketch):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the stroke, its cognates, and the row of answers with their figures."""
-        held = self.held if isinstance(self.held, int) else None
         searched = "searching" if self.curve and not self.pen else None
-        pins = tuple(place for _, place in self.pivots)
-        numbers = tuple(n for n, one in enumerate(self.cognates) if one)
-        words = searched if self.is_blank else _off(self)
-        path = PathShown(self.curve, self.pen, self.is_blank, words, held, pins, cognates=numbers)
-        return replace(over, path=path, row=None if self.is_blank else self._row(state))
+        over = replace(over, drawn=(self,), off=searched if self.is_blank else _off(self))
+        if self.is_blank:
+            return replace(over, alone="sheet")
+        return replace(over, stroke=self.curve, row=self._row(state))
+
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the cognates, faintly."""
+        if numbers := self.cognate_numbers:
+            from linkanim.picture.cognates import cognate_group
+
+            yield cognate_group(setting, pose, numbers)
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the pencil's line; once a linkage follows it, the points and pins that can be dragged."""
+        del pose
+        from linkanim.picture.build_sheet import drawn_line, handles
+
+        if self.is_blank:
+            yield drawn_line(setting, self.pen, self.curve)
+        elif self.curve:
+            held = self.held if isinstance(self.held, int) else None
+            pins = [place for _, place in self.pivots]
+            yield Group("handles", [*handles(setting, self.curve, held, pins)], over=True)
+
+    @property
+    def cognate_numbers(self) -> tuple[int, ...]:
+        """The numbers of the cognates that are drawn, 0 and 1."""
+        return tuple(n for n, one in enumerate(self.cognates) if one)
 
     def _row(self, state: State) -> AnswerRow:
         """Return the row of answers; while something is dragged, with the pictures from before."""

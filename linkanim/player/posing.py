@@ -14,8 +14,9 @@ from linkanim.build.places import as_point
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
+from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import AXIS, AnswerRow, DialShown, Overlay, PosesShown
+from linkanim.picture.overlay import AXIS, AnswerRow, DialShown, Head, Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
 from linkanim.player.edits import Dimensions, drop
@@ -52,6 +53,8 @@ from linkanim.scenes.scene import PosesPurpose
 from linkanim.units import short, three_digits
 
 if TYPE_CHECKING:
+    from linkanim.mechanics.motion import Pose
+    from linkanim.picture.figure import DrawSetting
     from linkanim.player.devices import Gesture, Mouse, Outside
     from linkanim.player.screen import Screen
     from linkanim.synthesis.guidance import PoseAnswer
@@ -530,33 +533,35 @@ class Posing(Sketching, PoseSketch):
         return let_go(state) or left(state)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the poses, the shown answer's coupler in each, and the row of answers."""
-        handles: tuple[Point, ...] = ()
-        bodies: list[tuple[Point, ...]] = []
+        """Return the overlay with the poses, words about them, and the row of answers."""
+        head = Head(*_said_of_poses(state, self), bool(self.refusal))
+        over = replace(over, drawn=(self,), head=head, alone="sheet" if self.is_blank else "")
+        return over if self.is_blank else replace(over, row=self._row(state))
+
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield nothing: poses lie over the linkage."""
+        del setting, pose
+        yield from ()
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the theory, the shown answer's coupler in each pose, what can be dragged, and the axes."""
+        del pose
+        from linkanim.picture.poses import axes, couplers, grips, theory
+
+        if self.curves:
+            yield theory(setting, self.poses, held=self.held is not None)
+        yield couplers(setting, [*self._bodies()])
+        yield grips(setting, free_joints(self).values(), self.pins, self.taken)
+        yield axes(setting, self.poses, self.taken, self.cursor)
+
+    def _bodies(self) -> Iterator[tuple[Point, ...]]:
+        """Yield the corners of the shown answer's coupler in each pose."""
         if answer := self.answer:
-            joints, first = answer.joints, self.poses[0]
-            handles = tuple(free_joints(self).values())
-            origin = complex(first.x, first.y)
-            for pose in self.poses:
-                turn = cmath.rect(1.0, pose.angle - first.angle)
-                at = complex(pose.x, pose.y)
-                bodies.append(tuple(as_point(at + turn * (joints[name] - origin)) for name in "ABP"))
-        sentence, facts = _said_of_poses(state, self)
-        shown = PosesShown(
-            self.poses,
-            self.pins,
-            handles,
-            tuple(bodies),
-            self.taken,
-            self.cursor,
-            self.curves,
-            self.held is not None,
-            self.is_blank,
-            sentence,
-            facts,
-            bool(self.refusal),
-        )
-        return replace(over, poses=shown, row=None if self.is_blank else self._row(state))
+            first = self.poses[0]
+            for one in self.poses:
+                turn = cmath.rect(1.0, one.angle - first.angle)
+                corners = (answer.joints[name] - complex(first.x, first.y) for name in "ABP")
+                yield tuple(as_point(complex(one.x, one.y) + turn * corner) for corner in corners)
 
     def _row(self, state: State) -> AnswerRow:
         """Return the row of answers below their dial, whose middle is marked."""

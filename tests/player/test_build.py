@@ -676,7 +676,7 @@ def test_a_photograph_dropped_while_linkages_are_looked_for_lays_the_pencil_down
     pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
     builder.tick(2)
     assert builder.sheet.before is before
-    assert overlay(builder.state).path is None
+    assert not overlay(builder.state).drawn
     assert photo_of(builder).file == "digger.png"
 
 

@@ -67,12 +67,12 @@ def test_layers_are_asked_for_at_once_and_shown_when_they_are_found(text: str) -
     assert [effect.name for effect in waiting.effects] == ["layers"]
     assert (waiting.mode, overlay(waiting).slider) == ("layers", None)
     found = after(waiting, Action("layered", text))
-    layers, slider = overlay(found).layers, overlay(found).slider
-    assert layers is not None
-    assert layers.parts is not None
-    assert slider is not None
-    assert (layers.parts.layers, len(layers.parts.plates), slider.at) == (3, 8, 0)
-    assert "3 layers on the ground" in layers.sentence
+    over, parts = overlay(found), the(found, Layering).parts
+    assert parts is not None
+    assert over.slider is not None
+    assert (parts.layers, len(parts.plates), over.slider.at, over.alone) == (3, 8, 0, "bare")
+    assert over.head
+    assert "3 layers on the ground" in over.head.sentence
 
 
 @pytest.mark.parametrize("name", ["jansen", "press", "scotch-yoke"])
@@ -105,11 +105,11 @@ def box_of(loop: np.ndarray) -> tuple[float, float, float, float]:
 
 def test_what_cannot_be_made_is_said_in_a_sentence() -> None:
     state = after(begin(load("drag-link")), "layers", Action("layered", made_text("drag-link")))
-    layers = overlay(state).layers
-    assert layers is not None
-    assert layers.parts is None
-    assert layers.is_warning
-    assert "cannot be made flat" in layers.sentence
+    over = overlay(state)
+    assert over.head is not None
+    assert over.alone == ""
+    assert over.head.is_warning
+    assert "cannot be made flat" in over.head.sentence
     assert overlay(state).slider is None
 
 
@@ -152,9 +152,9 @@ def test_another_scene_has_its_layers_asked_for_and_stays_lifted(shown: State) -
 def test_another_scene_is_not_shown_in_the_parts_of_the_one_before(shown: State) -> None:
     other = after(shown, Action("put", 0))
     over = overlay(other)
-    assert over.layers
-    assert over.layers.parts is None
-    assert over.layers.sentence.startswith(other.scene.title)
+    assert over.head
+    assert over.alone == ""
+    assert over.head.sentence.startswith(other.scene.title)
     assert over.slider is None
     picture = Picture(other.scene, (320, 180), Look(hud=False))
     assert list(picture.groups(other.scene.pose(0.0), over))

@@ -588,9 +588,8 @@ def test_cards_of_an_older_tape_say_how_far_each_is_off(stroke: State) -> None:
 
 def test_a_cognate_takes_the_place_of_the_answer_and_traces_the_same_curve(answered: State) -> None:
     before = sketch_of(answered)
-    path = overlay(answered).path
-    assert path
-    assert path.cognates == (0,)  # of a crank-rocker one is another, the other a double-rocker
+    # of a crank-rocker one is another, the other a double-rocker
+    assert the(answered, Pencil).cognate_numbers == (0,)
     taken = after(answered, Action("cognate", 0))
     after_, answer = sketch_of(taken), sketch_of(taken).answer
     assert isinstance(answer, PathAnswer)

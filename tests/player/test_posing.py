@@ -255,11 +255,11 @@ def test_the_dial_gives_smaller_links_at_one_end_and_better_angles_at_the_other(
 def test_poses_that_no_linkage_meets_are_told_in_a_sentence(empty: State) -> None:
     twice = (1.0, *ROWS[0], *ROWS[1], *ROWS[0])
     state = answered(after(empty, Action("set_poses", twice)))
-    shown = overlay(state).poses
-    assert shown is not None
-    assert shown.is_warning
-    assert "poses 1 and 3 are one" in shown.sentence
-    assert shown.blank
+    shown = overlay(state)
+    assert shown.head
+    assert shown.head.is_warning
+    assert "poses 1 and 3 are one" in shown.head.sentence
+    assert shown.alone == "sheet"
     # a change asks again
     assert sketch_of(drawn(state, (0.0, 0.0), (5.0, 5.0))).refusal == ""
 
