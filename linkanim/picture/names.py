@@ -535,12 +535,14 @@ class _Labelling:
         label: Label,
         families: Sequence[Anchors],
         *,
+        middles: Loop | None = None,
         faults: NDArray[np.bool_] | None = None,
         excused: NDArray[np.bool_] | None = None,
         most: float = 0.0,
         drawn: Sequence[MeasureLine | AngleArc] = (),
     ) -> _Wanted:
-        middles = np.concatenate([family.middles(self.paths, label.size) for family in families], axis=1)
+        if middles is None:
+            middles = self._middles(label.size, families)
         price = np.concatenate([family.price for family in families])
         lines = None
         if drawn:
@@ -558,6 +560,10 @@ class _Labelling:
         )
         return _Wanted(label, tuple(families), choice, tuple(drawn))
 
+    def _middles(self, size: Size, families: Sequence[Anchors]) -> Loop:
+        """Return the middles of a label of a size at all anchors of some families (n moments, k)."""
+        return np.concatenate([family.middles(self.paths, size) for family in families], axis=1)
+
     def _wanted_joints(self) -> Iterator[_Wanted]:
         """Yield the joints' letters, each nearer to its own joint than to any other."""
         setting, figure, places = self.setting, self.setting.figure, self.paths.places
@@ -569,32 +575,34 @@ class _Labelling:
         for name in figure.shown:
             if name in centred:
                 label = _label(setting, ", ".join(centred[name]), small, "warning", f"centre:{name}")
-                yield self._wanted(label, self._round(name, label.size, small), most=_CROWDED)
+                families, middles = self._round(name, label.size, small)
+                yield self._wanted(label, families, middles=middles, most=_CROWDED)
             if not setting.look.joints_named:
                 continue
             line = setting.layout.label_size
             label = _label(setting, subscripted(name), line, "ink", f"joint:{name}")
-            families = self._round(name, label.size, line)
-            middles = np.concatenate([family.middles(self.paths, label.size) for family in families], axis=1)
+            families, middles = self._round(name, label.size, line)
             faults, own = np.zeros(middles.shape, np.bool_), np.abs(middles - places[name][:, None])
             for other in apart[name]:
                 faults |= np.abs(middles - places[other][:, None]) <= own + _SURELY * line
             near = [np.abs(places[other] - places[name]) < _TOGETHER * line for other in apart[name]]
             excused = np.any(near, axis=0) if near and self.moment is None else None
-            yield self._wanted(
-                label, families, faults=faults, excused=excused, most=1.0 if self.moment is None else 0.0
-            )
+            most = 1.0 if self.moment is None else 0.0
+            yield self._wanted(label, families, middles=middles, faults=faults, excused=excused, most=most)
 
-    def _round(self, name: str, size: Size, line: int) -> list[Anchors]:
-        """Return the anchors of a joint's letter: round it in the ground's frame, and in that of each bar."""
-        setting, places = self.setting, self.paths.places
+    def _round(self, name: str, size: Size, line: int) -> tuple[list[Anchors], Loop]:
+        """Return the anchors of a joint's letter, and its middles at them (n moments, k).
+
+        They are round it in the ground's frame, and in that of each bar.
+        """
+        setting = self.setting
         gap, bar = _OFF_RIM * line, setting.gauge.bar + setting.gauge.outline
         radii = [bar + gap, bar + 0.35 * line, bar + 0.65 * line]
         if setting.figure.linkage.joint(name).travels:
             block = max(_BLOCK * setting.gauge.bar, rail_reach(setting, name) + setting.gauge.bar)
             radii += [block + gap] if block < bar + line else []
         turned = 0.02 * np.abs(np.angle(_ROUND / _BEST))
-        found = []
+        found, places = list[Anchors](), list[Loop]()
         frames = [(name, name)]
         if self.moment is None:
             frames += [
@@ -613,11 +621,14 @@ class _Labelling:
             )
             reach = np.repeat(radii, count)
             family = Anchors(at, head, np.zeros(len(way), np.complex128), way, reach, price, turns=bool(n))
-            far = np.abs(family.middles(self.paths, size) - places[name][:, None]).max(axis=0)
+            middles = family.middles(self.paths, size)
+            far = np.abs(middles - self.paths.places[name][:, None]).max(axis=0)
             rim = np.where(reach > bar + line, radii[-1] - gap, bar)
             near = far <= rim + max(_FARTHEST * line, 0.5 * size[0] + 0.2 * line)
-            found.append(some_of(family, near))
-        return [family for family in found if len(family.way)]
+            if near.any():
+                found.append(some_of(family, near))
+                places.append(middles[:, near])
+        return found, np.concatenate(places, axis=1)
 
     @property
     def _called(self) -> list[Mapping[Body, str]]:
@@ -649,7 +660,7 @@ class _Labelling:
         self, label: Label, families: list[Anchors], own: Loop, joints: frozenset[str] | None, half: float
     ) -> _Wanted:
         """Return a link's name, which no other link is nearer to and which touches its own."""
-        middles = np.concatenate([family.middles(self.paths, label.size) for family in families], axis=1)
+        middles = self._middles(label.size, families)
         off = off_lines(middles, own).min(axis=2)
         touch = off_rects(middles, label.size, own).min(axis=2) - half
         inside = _held(middles, own) if own.shape[1] > 2 else np.zeros(middles.shape, np.bool_)
@@ -664,7 +675,8 @@ class _Labelling:
                 else:  # in a plate, but on a bar before it: it would name that
                     faults |= inside & (other < self.setting.gauge.bar)
                 faults |= other < off - 0.5
-        return self._wanted(label, families, faults=faults, most=_CROWDED if self.moment is None else 0.0)
+        most = _CROWDED if self.moment is None else 0.0
+        return self._wanted(label, families, middles=middles, faults=faults, most=most)
 
     @cached_property
     def _reaches(self) -> list[Rect]:
