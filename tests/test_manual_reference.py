@@ -281,7 +281,10 @@ PRINTED: Mapping[str, list[list[str]]] = {
     "path": [["curve.csv", "--count", "1"], ["arc.csv", "--open", "--driver", "--count", "3"]],
     "guide": [["poses.csv", "--kind", "slider-crank", "--driver"]],
     "function": [["x^2", "--from", "0", "--to", "1", "--input", "60 deg", "--output", "60 deg", "--driver"]],
-    "quick-return": [["--stroke", "80", "--ratio", "1.4"], ["--swing", "60 deg", "--ratio", "1.25"]],
+    "quick-return": [
+        ["--kind", "six-bar", "--stroke", "80", "--ratio", "1.4"],
+        ["--swing", "60 deg", "--ratio", "1.25"],
+    ],
     "dwell": [
         ["--rest", "90 deg", "--stroke", "50"],
         ["--rest", "90 deg", "--swing", "40 deg", "--count", "1"],

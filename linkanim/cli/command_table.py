@@ -281,6 +281,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim quick-return --stroke 80 --ratio 1.4",
         'linkanim quick-return --swing "60 deg" --ratio 1.25 -o rocker.toml --count 1',
         'linkanim quick-return --stroke "8 cm" --ratio 1.4 --place 0.5 --json',
+        "linkanim quick-return --kind six-bar --stroke 400 --crank 30 --ratio 1.4 -o shaper.toml",
     ),
     "dwell": (
         "find six-bars whose output rests while the crank turns on, and write them as scenes",

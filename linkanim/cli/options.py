@@ -882,9 +882,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--swing ANGLE", units.angle, 'the swing of the rocker, such as "60 deg"'),
         _takes(
             "--kind",
-            choices=("slider-crank", "crank-rocker"),
-            help="the kind of linkage (default: as --stroke or --swing asks for)",
+            choices=("slider-crank", "crank-rocker", "six-bar"),
+            help="the kind of linkage (default: as --stroke or --swing asks for); a six-bar has a stroke of "
+            "many cranks",
         ),
+        _value("--crank L", length, "the crank of a six-bar in mm (default: a fifth of the stroke)"),
         _value("--place S", number, "take one member of the family, from 0 to 1, instead of the best"),
         _value(
             "--count N", count, "the number of answers: the best, and others of its family (default: 5)", 5

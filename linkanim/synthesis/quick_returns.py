@@ -32,7 +32,10 @@ from linkanim.units import shown
 COUNT = 5
 _TABLES: Mapping[str, str] = {"slider-crank": "slider-crank", "crank-rocker": "four-bar"}
 """For each kind, the table of a scene file that holds it."""
-KINDS = tuple(_TABLES)
+KINDS = (*_TABLES, "six-bar")
+"""The kinds; a six-bar is a crank-rocker whose rocker is longer and moves a slider by a rod."""
+_SWING, _SHORTER = math.radians(60), 5.0
+"""The usual swing of a six-bar's rocker, and the strokes in cranks."""
 LONGEST = 100.0
 """The longest link of a crank-rocker for which only angles are given."""
 _LONGEST_ROD = 12.0
@@ -85,6 +88,11 @@ class DeadCentreFamily:
     side: float
     low: float
     high: float
+
+    @property
+    def ratio(self) -> float:
+        """The time ratio."""
+        return (math.pi + self.angle) / (math.pi - self.angle)
 
     @property
     def slope(self) -> float:
@@ -172,6 +180,7 @@ def quick_return(
     stroke: float | None = None,
     swing: float | None = None,
     kind: str | None = None,
+    crank: float | None = None,
     place: float | None = None,
     count: int = COUNT,
     unit: str = "mm",
@@ -181,7 +190,9 @@ def quick_return(
     """Return linkages whose output takes `ratio` times as long one way as the other, the best first.
 
     For a slider-crank give the `stroke`; for a crank-rocker the `swing` (rad) and perhaps, as `stroke`, the
-    chord between the dead centres of its pin. The first linkage has the largest least transmission angle of
+    chord between the dead centres of its pin. A six-bar has a slider whose `stroke` may be many times its
+    `crank`, a fifth of it by default: a rocker with that `swing`, 60 degrees by default, is as long as that
+    takes. The first linkage has the largest least transmission angle of
     the family, the others lie evenly along it; `place`, from 0 to 1, takes that one alone. BadInput for
     numbers that make no sense, and if no linkage of the kind does it.
     """
@@ -195,9 +206,15 @@ def quick_return(
         raise BadInput(f"a time ratio of {ratio:g}: give the slow way's time over the quick way's, 1 to 10")
     if stroke is not None and not (can_be_computed(stroke) and stroke > 0):
         raise BadInput(f"a stroke of {stroke:g}: give a length above zero")
-    if kind == "slider-crank" and stroke is None:
+    if kind != "crank-rocker" and stroke is None:
         other = "" if named else ", or the swing of a crank-rocker, such as 60 deg"
-        raise BadInput(f"the stroke is missing: give that of a slider-crank, such as 80{other}")
+        raise BadInput(f"the stroke is missing: give that of a {kind}, such as 80{other}")
+    if kind != "six-bar" and crank is not None:
+        raise BadInput(f"the crank of a {kind} follows from the others; leave it out, or ask for a six-bar")
+    if crank is not None and not (can_be_computed(crank) and crank > 0):
+        raise BadInput(f"a crank of {crank:g}: give a length above zero")
+    if kind == "six-bar":
+        swing = _SWING if swing is None else swing
     if kind == "slider-crank" and swing is not None:
         raise BadInput("a slider-crank has a stroke, and no swing; give the one and leave out the other")
     if kind == "crank-rocker" and swing is None:
@@ -206,7 +223,7 @@ def quick_return(
         raise BadInput(f"a swing of {math.degrees(swing):g} deg: a rocker swings by 1 to 179 deg")
     if place is not None and not 0 <= place <= 1:
         raise BadInput(f"place={place:g}: the family goes from 0 to 1")
-    solutions = families(kind, ratio, swing or 0.0)
+    solutions = families("crank-rocker" if kind == "six-bar" else kind, ratio, swing or 0.0)
     if not solutions:
         said = f"swings by {math.degrees(swing):g} deg" if swing else "slides"
         other = ", or another swing" if swing else ""
@@ -219,6 +236,10 @@ def quick_return(
         else [family.low + place * (family.high - family.low)]
     )
     stated = {"length_unit": unit, "source": source}
+    if kind == "six-bar":
+        assert stroke is not None
+        short = crank or stroke / _SHORTER
+        return tuple(_longer(family, float(x), (stroke, short), stated, name) for x in places[:count])
     return tuple(_made(family, float(x), stroke, stated, name) for x in places[:count])
 
 
@@ -296,13 +317,15 @@ def _made(
 ) -> QuickReturn:
     """Return a member of a family as a scene, its time ratio as the solver has it."""
     scale, parameters, tables = _sized(family, x, stroke)
-    ratio = (math.pi + family.angle) / (math.pi - family.angle)
     document = {
-        "title": f"{family.kind.capitalize()} with a time ratio of {ratio:g}",
+        "title": f"{family.kind.capitalize()} with a time ratio of {family.ratio:g}",
         **stated,
         "drive": {"joint": "A", "speed": "20 rpm", "start": "0 deg"},
         **tables,
-        "quick-return": {"ratio": round(ratio, _DIGITS), **_stated(family, scale, stated["length_unit"])},
+        "quick-return": {
+            "ratio": round(family.ratio, _DIGITS),
+            **_stated(family, scale, stated["length_unit"]),
+        },
     }
     scene = scene_from(document, name=name, where=name)
     info = scene.info
@@ -315,6 +338,76 @@ def _made(
         ratio=info.time_ratio or 1.0,
         output=output or 0.0,
         transmission_angle=float(family.transmission(np.array([x]))[0]),
+        best=x == family.best,
+    )
+
+
+def _longer(
+    family: DeadCentreFamily, x: float, sizes: tuple[float, float], stated: Mapping[str, str], name: str
+) -> QuickReturn:
+    """Return a six-bar with a stroke and a crank of these sizes.
+
+    The rocker's end D has the stroke as its chord, and the slider's line runs along the chord, halfway up the
+    arc above it: so D is equally far from the line at both dead centres, and the stroke is the chord.
+    """
+    stroke, short = sizes
+    values = [float(part[0]) for part in family.rocker(np.array([x]))]
+    digits = _DIGITS - math.floor(math.log10(stroke))
+    crank, coupler, rocker, ground = (round(value * short / values[0], digits) for value in values)
+    ends = [
+        math.acos((ground**2 + rocker**2 - reach**2) / (2 * abs(ground) * rocker))
+        for reach in (coupler - crank, coupler + crank)
+    ]
+    half = (ends[1] - ends[0]) / 2
+    lever = stroke / (2 * math.sin(half))
+    middle = math.copysign(1.0, ground) * (math.pi - (ends[0] + ends[1]) / 2)
+    document: dict[str, Any] = {
+        "title": f"Six-bar with a time ratio of {family.ratio:g} and a stroke of {stroke / crank:.4g} cranks",
+        **stated,
+        "drive": {"joint": "A", "speed": "20 rpm", "start": "0 deg"},
+        "ground": {"O2": [0, 0], "O4": [abs(ground), 0]},
+        "quick-return": {"ratio": round(family.ratio, _DIGITS), "swing": f"{math.degrees(2 * half)!r} deg"},
+    }
+
+    def scene(sign: float) -> Scene:
+        """Return the scene whose slider goes forward to the left, or to the right, of the rocker's middle."""
+        angle = f"{math.degrees(middle) + sign * 90!r} deg"
+        line = {"through": "O4", "angle": angle, "offset": -sign * lever * (1 + math.cos(half)) / 2}
+        joints = {
+            "A": {"crank": "O2", "length": crank},
+            "B": {
+                "from": ["A", "O4"],
+                "length": [coupler, rocker],
+                "side": "left" if ground > 0 else "right",
+            },
+            "D": {"on": ["O4", "B"], "at": [lever, 0]},
+            "C": {"from": "D", "length": lever, "line": line, "side": "forward"},
+        }
+        bodies = {
+            "crank": {"joints": ["O2", "A"]},
+            "coupler": {"joints": ["A", "B"]},
+            "rocker": {"joints": ["O4", "B", "D"]},
+            "rod": {"joints": ["D", "C"]},
+            "slider": {"slider": "C"},
+        }
+        return scene_from({**document, "joints": joints, "bodies": bodies}, name=name, where=name)
+
+    one = scene(1.0)
+    forward = one.cycle(_TRIED, derivatives=1).travel_velocity["slider"] > 0
+    made = one if forward.mean() >= 0.5 else scene(-1.0)
+    info = made.info
+    own = float(family.transmission(np.array([x]))[0])
+    return QuickReturn(
+        scene=made,
+        kind="six-bar",
+        parameters={
+            **{"ground": abs(ground), "crank": crank, "coupler": coupler, "rocker": rocker},
+            **{"lever": lever, "rod": lever},
+        },
+        place=family.place_of(x),
+        ratio=info.time_ratio or 1.0,
+        output=info.stroke or 0.0,
+        transmission_angle=min(own, math.acos((1 - math.cos(half)) / 2)),
         best=x == family.best,
     )
 

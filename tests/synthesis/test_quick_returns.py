@@ -11,6 +11,7 @@ import pytest
 
 import linkanim
 from linkanim.errors import BadInput
+from linkanim.mechanics.measures import transmission_angle
 from linkanim.synthesis.quick_returns import QuickReturn, families
 
 DEGREE = math.pi / 180
@@ -125,3 +126,37 @@ def test_a_rocker_s_chord_can_be_given() -> None:
 def test_what_cannot_be_is_said(options: dict[str, Any], said: str) -> None:
     with pytest.raises(BadInput, match=said):
         linkanim.quick_return(**options)
+
+
+# A stroke of many cranks: a rocker as long as it takes. Dead centres, and so the time ratio, are the
+# crank-rocker's; forward is the slow way while the crank turns counterclockwise.
+@pytest.mark.parametrize("ratio", [1.0, 1.2, 1.8])
+@pytest.mark.parametrize(("swing", "crank"), [(None, None), (40.0, 3.0), (90.0, 25.0)])
+def test_a_six_bar_has_a_stroke_of_many_cranks(
+    ratio: float, swing: float | None, crank: float | None
+) -> None:
+    asked = {"swing": math.radians(swing) if swing else None, "crank": crank}
+    for one in linkanim.quick_return(kind="six-bar", ratio=ratio, stroke=120.0, count=3, **asked):  # type: ignore[arg-type]
+        assert one.parameters["crank"] == asked.get("crank", 24.0)
+        assert one.output == pytest.approx(120.0, rel=1e-12)
+        assert one.ratio == pytest.approx(ratio, rel=1e-9)
+        assert one.scene.info.full_turn
+        motion = one.scene.cycle(4000, derivatives=1)
+        assert np.ptp(motion.travel["slider"]) == pytest.approx(120.0, rel=1e-5)
+        forward = float((motion.travel_velocity["slider"] > 0).mean())
+        assert forward == pytest.approx(ratio / (1 + ratio), abs=1e-3)
+        least = min(float(transmission_angle(motion, dyad).min()) for dyad in ("B", "C"))
+        assert least == pytest.approx(one.transmission_angle, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [
+        ({"kind": "six-bar"}, "the stroke is missing: give that of a six-bar"),
+        ({"stroke": 50.0, "crank": 5.0}, "the crank of a slider-crank follows from the others"),
+        ({"kind": "six-bar", "stroke": 50.0, "crank": -1.0}, "give a length above zero"),
+    ],
+)
+def test_what_a_six_bar_needs_is_said(asked: dict[str, Any], says: str) -> None:
+    with pytest.raises(BadInput, match=says):
+        linkanim.quick_return(ratio=1.2, **asked)

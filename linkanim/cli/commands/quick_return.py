@@ -10,7 +10,7 @@ from linkanim.synthesis.quick_returns import QuickReturn, quick_return
 from linkanim.units import significant
 
 _TITLES = ("place", "ratio", "output", "transmission", "lengths", "class")
-_HANDED_ON = ("ratio", "stroke", "swing", "kind", "place", "count")
+_HANDED_ON = ("ratio", "stroke", "swing", "kind", "crank", "place", "count")
 """Options that have the same name here and as keywords of the function."""
 
 
@@ -26,7 +26,7 @@ def run(options: Namespace) -> None:
 
 
 def _cells(one: QuickReturn) -> tuple[str, ...]:
-    sliding = one.kind == "slider-crank"
+    sliding = one.kind != "crank-rocker"
     output = one.output if sliding else math.degrees(one.output)
     lengths = ", ".join(f"{name} {significant(value, 4)}" for name, value in one.parameters.items())
     return (
@@ -39,7 +39,7 @@ def _cells(one: QuickReturn) -> tuple[str, ...]:
 
 def _object(one: QuickReturn) -> dict[str, object]:
     """Return what `--json` prints of an answer."""
-    output = "stroke" if one.kind == "slider-crank" else "swing"
+    output = "stroke" if one.kind != "crank-rocker" else "swing"
     return {
         "ratio": one.ratio,
         output: one.output,
