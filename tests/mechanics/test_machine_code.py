@@ -114,14 +114,6 @@ def test_every_scene_is_the_same_bits(scene: str, both: Check) -> None:
 
 @installed
 @pytest.mark.slow
-def test_all_scenes_are_the_same_bits(both: Check) -> None:
-    for name in SCENES:
-        solved = load(name)
-        both(lambda: solved.solve(phase=PHASES))  # noqa: B023
-
-
-@installed
-@pytest.mark.long
 def test_all_scenes_by_angle_and_with_an_accelerated_input_are_the_same_bits(both: Check) -> None:
     for name in SCENES:
         check_scene(both, load(name))
