@@ -3,7 +3,6 @@
 Its parts, in reading order:
 
 - The rows of one item of a worked solution in a notation: sides of equations, one below the other.
-- The vectors of a solution's loops as a TikZ picture.
 - A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
 """
 
@@ -18,8 +17,6 @@ from html import escape
 from itertools import chain, groupby, pairwise
 from pathlib import Path
 from unicodedata import east_asian_width
-
-import numpy as np
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
 from linkanim.explain.solution import FORCES, INPUT_TITLE, TOLD, Solution
@@ -39,6 +36,7 @@ from linkanim.explain.steps import (
     decimals,
     rounded,
 )
+from linkanim.explain.tikz import free_tikz, tikz
 from linkanim.frozen import NamedTuple, frozen
 
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.
@@ -98,38 +96,6 @@ def _system(system: System, how: Notation, blank: bool) -> Iterator[EquationRow]
         yield EquationRow(
             how.matrix([row[:2] for row in set_]) + unknowns, how.matrix([row[2:] for row in set_])
         )
-
-
-# The vectors of a solution's loops as a TikZ picture.
-
-_WIDE, _HIGH = 13.0, 9.0
-"""The picture's greatest width and height in centimetres."""
-_NEAR = 0.02
-"""The distance from a vector's end, in centimetres, below which a joint is that end."""
-
-
-def tikz(found: Solution) -> str:
-    """Return the vectors of all loops with their names, and their joints with theirs; "" without a loop."""
-    return "\n".join(_lines(found)) if found.loops else ""
-
-
-def _lines(found: Solution) -> Iterator[str]:
-    ends = np.array([(one.begin, one.end) for one in found.arrows])
-    scale = min(_WIDE / max(float(np.ptp(ends.real)), 1e-9), _HIGH / max(float(np.ptp(ends.imag)), 1e-9))
-    yield r"\begin{center}\begin{tikzpicture}[>=latex]"
-    for one in found.arrows:
-        begin, end, name = _at(scale * one.begin), _at(scale * one.end), LATEX.symbol(one.symbol)
-        yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${name}$}} {end};"
-    for name, at in found.places.items():
-        if np.abs(ends - at).min() * scale < _NEAR:
-            fill = "black" if found.request.scene.linkage.joint(name).fixed else "white"
-            label = f"node[below right] {{{LATEX.name(name)}}}"
-            yield rf"\draw[fill={fill}] {_at(scale * at)} circle[radius=2pt] {label};"
-    yield r"\end{tikzpicture}\end{center}"
-
-
-def _at(place: complex) -> str:
-    return f"({place.real:.2f},{place.imag:.2f})"
 
 
 # A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
@@ -573,6 +539,7 @@ TEX = DocumentForm(
     aligned=_latex_aligned,
     listed=_latex_listed,
     figure=tikz,
+    free=free_tikz,
     new_page=r"\newpage",
     question=_latex_question,
     answers=lambda found: (
@@ -619,6 +586,7 @@ MARKDOWN = replace(
     aligned=_markdown_aligned,
     listed=_markdown_listed,
     figure=lambda _: "",
+    free=lambda _: "",
     new_page="",
     question=_plain_question,
     answers=lambda found: "\n".join(f"- {one}" for one in found),

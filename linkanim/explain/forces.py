@@ -551,13 +551,13 @@ def _freed(body: FreeBody, sums: tuple[Formula, Formula, Formula]) -> tuple[Item
     acting = dict.fromkeys([*(one.name for one in body.forces), *(name for name, _ in body.couples)])
     if not acting:
         return (Words("Nothing acts on it."),)
-    listed = Unknown(tuple(Formula("leaf", symbol=_symbol(name)) for name in acting), "On it act")
+    listed = Unknown(tuple(Formula("leaf", symbol=symbol_of(name)) for name in acting), "On it act")
     turning = "and their moments" if sums[-1].symbolic else "none of which has a moment"
     said = f"Its forces across and up, {turning} about {marked(body.about)}:"
     return (listed, Words(said), *(Equation(one, ZERO) for one in sums if one.symbolic))
 
 
-def _symbol(name: str) -> Symbol:
+def symbol_of(name: str) -> Symbol:
     """Return the symbol of a force or couple by its name, F_{B,3}."""
     letter, _, index = name.partition("_{")
     return Symbol(letter, index.removesuffix("}"))

@@ -344,6 +344,7 @@ _TEXT = str.maketrans(
         **{letter: f"$\\{name}$" for letter, name in _GREEK.items()},
         **{char: f"\\{char}" for char in "#$%&_{}"},
         **{chr(0x2080 + n): f"$_{n}$" for n in range(10)},
+        **{chr(0x2070 + n): f"$^{n}$" for n in (0, *range(4, 10))},
         "\\": r"\textbackslash{}",
         "~": r"\textasciitilde{}",
         "^": r"\textasciicircum{}",

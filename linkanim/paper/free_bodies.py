@@ -10,10 +10,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkanim.explain.forces import FreeBody
+from linkanim.explain.free import couples, joints_of, panels, pulls, spread, titled, triangle
 from linkanim.explain.solution import Solution
-from linkanim.frozen import NamedTuple
-from linkanim.mechanics.linkage import holding
-from linkanim.mechanics.quantities import called
 from linkanim.paper.illustration import page_pen
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import NamedPlace, around_joint, beside, captions
@@ -33,19 +31,8 @@ _PANEL, _ACROSS = (300, 240), 3
 """The size of a body's panel in pixels, and how many lie beside each other."""
 _FILLED, _LONGEST = 0.5, 0.32
 """The share of a panel that the largest body takes, and the longest arrow."""
-_SHORTEST = 0.05
-"""A force of less than this share of the greatest on a body is drawn so long, that it is seen."""
-_NOTHING = 1e-9
 _OF = re.compile(r'id="(?:arrow|side)-([^"]*?)(?:-\d+)?"')
 """The ids of the groups of arrows, with their names."""
-
-
-class _Arrow(NamedTuple):
-    """A force in pixels: its name, its foot and how far it reaches."""
-
-    name: str
-    foot: complex
-    reach: complex
 
 
 def free_bodies_svg(found: Solution) -> str:
@@ -53,15 +40,10 @@ def free_bodies_svg(found: Solution) -> str:
 
     Each arrow says what it is of, as its name does.
     """
-    bodies = _panels(found)
+    bodies = panels(found)
     groups = [group for body in enumerate(bodies) for group in _panel(found, *body)]
     drawn = svg(_size(len(bodies)), None, groups, title=f"Free bodies of {found.title}")
     return _OF.sub(lambda arrow: f'data-of="{vector_of(arrow[1])}"', drawn)
-
-
-def _panels(found: Solution) -> list[FreeBody]:
-    """Return the bodies on which anything acts."""
-    return [body for body in found.bodies if body.forces or body.couples]
 
 
 def _size(count: int) -> tuple[int, int]:
@@ -72,30 +54,33 @@ def _panel(found: Solution, n: int, body: FreeBody) -> Iterator[Group]:
     """Yield the groups of one body: its outline, each force, its couples, and the names."""
     pen = page_pen((960, 540), "light")
     room = Rect(n % _ACROSS * _PANEL[0], n // _ACROSS * _PANEL[1], *_PANEL).inset(8)
-    triangle = _is_triangle(body)
-    half = room._replace(width=room.width * (0.62 if triangle else 1.0))
-    joints = _joints(found, body)
-    scale = _FILLED * _PANEL[1] / max(_spread(found), 1e-12)
+    three = bool(triangle(body))
+    half = room._replace(width=room.width * (0.62 if three else 1.0))
+    joints = joints_of(found, body)
+    scale = _FILLED * _PANEL[1] / max(spread(found), 1e-12)
     spots = {name: scale * at.conjugate() for name, at in joints.items()}
-    drawn = list(_arrows(body, scale))
-    ends = np.array([*spots.values(), *(end for one in drawn for end in (one.foot, one.foot + one.reach))])
+    long = _LONGEST * _PANEL[1]
+    drawn = [
+        one._replace(foot=scale * one.foot.conjugate(), way=long * one.way.conjugate()) for one in pulls(body)
+    ]
+    ends = np.array([*spots.values(), *(end for one in drawn for end in (one.foot, one.foot + one.way))])
     middle = complex(ends.real.max() + ends.real.min(), ends.imag.max() + ends.imag.min()) / 2
     off = complex(half.x + half.width / 2, half.y + half.height / 2 + 8) - middle
     spots = {name: at + off for name, at in spots.items()}
     drawn = [one._replace(foot=one.foot + off) for one in drawn]
-    words, colour, turning = _words(found, body), pen.theme.force, pen.theme.acceleration
+    words, colour, turning = titled(found, body), pen.theme.force, pen.theme.acceleration
     yield grouped(f"free-{body.name}", _outline(found, body, spots, pen))
     for one in drawn:
-        yield Group(f"arrow-{one.name}", [Layer(colour, arrows([one.foot], [one.reach], 1.5 * pen.line))])
+        yield Group(f"arrow-{one.name}", [Layer(colour, arrows([one.foot], [one.way], 1.5 * pen.line))])
     yield grouped(f"couples-{body.name}", _couples(body, spots, pen))
-    names = [NamedPlace(one.name, beside(one.foot, one.foot + one.reach, pen.small), colour) for one in drawn]
+    names = [NamedPlace(one.name, beside(one.foot, one.foot + one.way, pen.small), colour) for one in drawn]
     names += [
-        NamedPlace(name, around_joint(at, 2.4 * pen.small), turning) for name, at in _turned(body, spots)
+        NamedPlace(name, around_joint(_middle(spots), 2.4 * pen.small), turning) for name, _ in couples(body)
     ]
     pins = [
         NamedPlace(subscripted(one), around_joint(at, pen.small), pen.theme.ink) for one, at in spots.items()
     ]
-    ground = grounded(half, lines=[(one.foot, one.foot + one.reach) for one in drawn], half=1.5 * pen.line)
+    ground = grounded(half, lines=[(one.foot, one.foot + one.way) for one in drawn], half=1.5 * pen.line)
     small = pen.__class__(pen.type, pen.theme, pen.small, pen.small, pen.line)
     told = [
         one._replace(of=vector_of(one.text)) if one.colour in (colour, turning) else one
@@ -103,39 +88,8 @@ def _panel(found: Solution, n: int, body: FreeBody) -> Iterator[Group]:
     ]
     title = Caption(words, (room.x, room.y), pen.small, pen.theme.ink, strong=True)
     yield Group(f"names-{body.name}", [], [title, *told])
-    if triangle:
+    if three:
         yield from _triangle(body, room._replace(x=half.right, width=room.width - half.width), small)
-
-
-def _words(found: Solution, body: FreeBody) -> str:
-    scene = found.request.scene
-    own = next((one for one in scene.linkage.bodies if one.name == body.name), None)
-    return called(own, scene.info.link_names) if own else f"Bar {body.name}"
-
-
-def _joints(found: Solution, body: FreeBody) -> dict[str, complex]:
-    """Return the joints of a body and where they lie."""
-    linkage = found.request.scene.linkage
-    own = next((one for one in linkage.bodies if one.name == body.name), None)
-    if own is not None and own.slider:
-        return {own.slider: found.places[own.slider]}
-    if own is None:
-        pair = tuple(body.name.split("–"))
-        if len(pair) < 2:
-            return {body.about: found.places[body.about]}
-        n = holding(linkage.rigid_bodies, pair)
-    else:
-        n = holding(linkage.rigid_bodies, own.joints)
-    return {name: found.places[name] for name in (linkage.rigid_bodies[n] if n else (body.about,))}
-
-
-def _spread(found: Solution) -> float:
-    """Return the width or height of the largest body, in the scene's unit."""
-    spreads = [0.0]
-    for body in _panels(found):
-        places = np.array(list(_joints(found, body).values()))
-        spreads.append(float(max(np.ptp(places.real), np.ptp(places.imag))))
-    return max(spreads)
 
 
 def _outline(found: Solution, body: FreeBody, spots: dict[str, complex], pen: Pen) -> Iterator[Item]:
@@ -154,23 +108,11 @@ def _outline(found: Solution, body: FreeBody, spots: dict[str, complex], pen: Pe
         yield Layer(theme.background, [at + disc(2.6)])
 
 
-def _arrows(body: FreeBody, scale: float) -> Iterator[_Arrow]:
-    """Yield the forces as arrows, the greatest on a body equally long on each."""
-    values = [complex(one.force.x.value, one.force.y.value) for one in body.forces]
-    most = max(map(abs, values), default=0.0)
-    for one, value in zip(body.forces, values, strict=True):
-        if abs(value) <= _NOTHING * most or not most:
-            continue
-        foot = scale * complex(one.place.x.value, -one.place.y.value)
-        long = max(abs(value) / most, _SHORTEST) * _LONGEST * _PANEL[1]
-        yield _Arrow(one.name, foot, long * (value / abs(value)).conjugate())
-
-
 def _couples(body: FreeBody, spots: dict[str, complex], pen: Pen) -> Iterator[Item]:
     """Yield the couples as bent arrows about the body's middle."""
-    values = {name: couple.value for name, couple in body.couples}
-    for n, (name, middle) in enumerate(_turned(body, spots)):
-        radius, way = 15.0 + 7.0 * n, -1.0 if values[name] > 0 else 1.0
+    middle = _middle(spots)
+    for n, (_, value) in enumerate(couples(body)):
+        radius, way = 15.0 + 7.0 * n, -1.0 if value > 0 else 1.0
         turns = way * np.linspace(-2.2, 1.2, 24)
         path = middle + radius * np.exp(1j * turns)
         yield Layer(pen.theme.acceleration, stroke(path, 1.3 * pen.line))
@@ -178,36 +120,22 @@ def _couples(body: FreeBody, spots: dict[str, complex], pen: Pen) -> Iterator[It
         yield Layer(pen.theme.acceleration, arrows([path[-1]], [9.0 * head], 1.3 * pen.line))
 
 
-def _turned(body: FreeBody, spots: dict[str, complex]) -> list[tuple[str, complex]]:
-    """Return the couples that are not zero, and the middle about which they are drawn."""
-    middle = sum(spots.values()) / len(spots)
-    return [(name, middle) for name, couple in body.couples if couple.value]
-
-
-def _is_triangle(body: FreeBody) -> bool:
-    """Tell whether exactly three forces hold a body: they meet in a point, and close a triangle."""
-    return (
-        len([one for one in body.forces if one.force.x.value or one.force.y.value]) == 3 and not body.couples
-    )
+def _middle(spots: dict[str, complex]) -> complex:
+    """Return the place about which couples are drawn."""
+    return sum(spots.values()) / len(spots)
 
 
 def _triangle(body: FreeBody, room: Rect, pen: Pen) -> Iterator[Group]:
     """Yield the polygon of a body's three forces, head to tail."""
-    values = [(one.name, complex(one.force.x.value, -one.force.y.value)) for one in body.forces]
-    ends = np.cumsum([0j, *(value for _, value in values)])
-    spread = max(float(np.ptp(ends.real)), float(np.ptp(ends.imag)), 1e-12)
-    scale = 0.62 * min(room.width, room.height) / spread
+    sides = [(name, begin.conjugate(), end.conjugate()) for name, begin, end in triangle(body)]
+    ends = np.array([side[1:] for side in sides])
+    spread_ = max(float(np.ptp(ends.real)), float(np.ptp(ends.imag)), 1e-12)
+    scale = 0.62 * min(room.width, room.height) / spread_
     middle = complex(ends.real.max() + ends.real.min(), ends.imag.max() + ends.imag.min()) / 2
-    begin = complex(room.x + room.width / 2, room.y + room.height / 2) - scale * middle
-    colour, sides = pen.theme.force, []
-    for (name, value), start in zip(values, ends, strict=False):
-        if value:
-            foot, reach = begin + scale * complex(start), scale * value
-            sides.append((foot, foot + reach))
-            yield Group(f"side-{name}", [Layer(colour, arrows([foot], [reach], 1.2 * pen.line))])
-    names = [
-        NamedPlace(name, beside(*side, pen.small), colour)
-        for (name, _), side in zip([one for one in values if one[1]], sides, strict=True)
-    ]
-    told = captions(names, grounded(room, lines=sides, half=1.2 * pen.line), pen)
+    off, colour = complex(room.x + room.width / 2, room.y + room.height / 2) - scale * middle, pen.theme.force
+    placed = [(name, off + scale * begin, off + scale * end) for name, begin, end in sides]
+    for name, foot, head in placed:
+        yield Group(f"side-{name}", [Layer(colour, arrows([foot], [head - foot], 1.2 * pen.line))])
+    names = [NamedPlace(name, beside(foot, head, pen.small), colour) for name, foot, head in placed]
+    told = captions(names, grounded(room, lines=[side[1:] for side in placed], half=1.2 * pen.line), pen)
     yield Group(f"triangle-{body.name}", [], [one._replace(of=vector_of(one.text)) for one in told])

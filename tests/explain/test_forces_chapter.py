@@ -15,7 +15,9 @@ from random_joints import Make
 
 from linkanim.cli import main
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
-from linkanim.explain.formula import Symbol
+from linkanim.explain.forces import symbol_of
+from linkanim.explain.formula import LATEX, Symbol
+from linkanim.explain.free import triangle
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.steps import LargeSystem, ValueLine
 from linkanim.mechanics.linkage import Linkage
@@ -223,3 +225,28 @@ def test_no_zero_has_a_sign_and_a_body_without_moments_says_so() -> None:
     text = document(found, replace(MARKDOWN, figure=lambda _: ""))
     assert not re.search(r"[-−]0\s*(\\,)?\s*(\\mathrm|\\text|N\b)", text)
     assert "forces across and up, none of which has a moment about B:" in text
+
+
+@pytest.mark.parametrize("name", ["press", "engine", "my"])
+def test_latex_has_the_bodies_free_with_every_force_on_them(name: str) -> None:
+    scene = four_bar() if name == "my" else load(name)
+    found = forces_of(scene, 1.1)
+    text = document(found, TEX)
+    drawn = text[text.index("{Forces}") :]
+    pictures = drawn.count(r"\begin{tikzpicture}")
+    bodies = [body for body in found.bodies if body.forces or body.couples]
+    three = [body for body in bodies if len(triangle(body)) == 3]
+    assert pictures == drawn.count(r"\end{tikzpicture}") == len(bodies) + len(three)
+    assert drawn.count(r"\draw[->,thick,magenta") == sum(
+        sum(bool(one.force.x.value or one.force.y.value) for one in body.forces) for body in bodies
+    ) + 3 * len(three)
+    for body in bodies:
+        for one in body.forces:
+            if one.force.x.value or one.force.y.value:
+                assert f"{{${LATEX.symbol(symbol_of(one.name))}$}};" in drawn
+    assert "tikz" not in document(found, MARKDOWN)
+
+
+def test_latex_sets_small_numbers_in_its_standard_fonts() -> None:
+    # a residual of 3.3×10⁻⁶ asked for another engine
+    assert "fontspec" not in document(forces_of(load("press"), 1.1), TEX)
