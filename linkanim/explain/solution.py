@@ -16,6 +16,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, Literal
 
+from linkanim.errors import BadInput
 from linkanim.explain.forces import Balance, FreeBody, forces
 from linkanim.explain.formula import (
     ONE,
@@ -743,7 +744,12 @@ class _Draft:
                 yield from self._forces(known)
 
     def _forces(self, known: Mapping[str, Formula]) -> Iterator[Chapter]:
-        """Yield the chapter of what each body carries."""
+        """Yield the chapter of what each body carries; BadInput for links that are solved together."""
+        if any(joint.grouped for joint in self.linkage.joints):
+            raise BadInput(
+                "forces in joints of links that are solved together are not derived line by line;"
+                " `linkanim solve` and `linkanim chart` have them"
+            )
         balance = Balance(self.rates, known, self.motion, lambda body: centre_name(body, self.rates))
         found = forces(balance, self.request.about)
         self.results += found.results

@@ -139,6 +139,12 @@ class GroupPoint(Joint):
     grouped: ClassVar[bool] = True
 
     @property
+    def reacts(self) -> bool:
+        """Whether every line of its group has an axis, and no block lies on two of them."""
+        blocks = [slide.link for slide in self.group.slides if not slide.turns]
+        return len({*blocks}) == len(blocks) and all(map(self.group.line, self.group.slides))
+
+    @property
     def motor(self) -> tuple[str, str] | None:
         """The link that a motor at the joint turns, and the joint towards which its angle is 0."""
         own = self.group.motor

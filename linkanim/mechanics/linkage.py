@@ -155,6 +155,11 @@ class Joint(Stated):
     grouped: ClassVar[bool] = False
 
     @property
+    def reacts(self) -> bool:
+        """Whether the forces of it are worked out."""
+        return True
+
+    @property
     def needs(self) -> tuple[str, ...]:
         """The joints that this one is found from."""
         return ()
@@ -988,8 +993,8 @@ class Linkage(Stated):
 
     @cached_property
     def reacting(self) -> bool:
-        """Whether forces in its joints are worked out: it has any, and no links that only solve together."""
-        return self.forceful and not any(joint.grouped for joint in self.joints)
+        """Whether forces in its joints are worked out: it has any, and all its joints tell theirs."""
+        return self.forceful and all(joint.reacts for joint in self.joints)
 
     @cached_property
     def slides(self) -> dict[str, Slide]:

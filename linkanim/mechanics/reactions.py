@@ -13,6 +13,9 @@ have such a divisor, too. Its root has a sign and all its digits (`solver.signed
 up to dead centres and limits of the input, where they grow without bound (Uicker, Pennock and Shigley, Theory
 of Machines and Mechanisms, on static and dynamic force analysis).
 
+Links that can only be solved together have one system of all their balances, which is solved in floats: it
+has no divisor that is known beforehand, and so near a limit of the input its forces lose digits as they grow.
+
 Springs, dampers and loads in a joint pull at its pin, not at one of the bodies that meet there: the forces of
 the pin on all of them are together what pulls at it. There is no friction.
 """
@@ -21,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -30,6 +33,7 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.forces import beside, idle, near_ends
+from linkanim.mechanics.groups import GroupLink, GroupPoint, GroupSlider, LinkGroup
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,
@@ -130,7 +134,25 @@ class Members(NamedTuple):
 
 def member_of(linkage: Linkage, body: Body) -> Member:
     """Return which body a named one is."""
-    return body.slider if body.slider is not None else holding(linkage.rigid_bodies, body.joints) or 0
+    if body.slider is not None:
+        return block_of(linkage, body.slider)
+    return holding(linkage.rigid_bodies, body.joints) or 0
+
+
+def block_of(linkage: Linkage, joint: str) -> Member:
+    """Return which body slides with a joint: a link of a group may have further points."""
+    slider = linkage.joint(joint)
+    if isinstance(slider, GroupSlider):
+        slide = next(one for one in slider.group.slides if one.point == joint and not one.turns)
+        return link_member(linkage, slider.group.by_name[slide.link])
+    return joint
+
+
+def link_member(linkage: Linkage, link: GroupLink) -> Member:
+    """Return which body a link of a group is."""
+    if link.name == GROUND:
+        return 0
+    return link.points[0] if len(link.points) == 1 else holding(linkage.rigid_bodies, link.points) or 0
 
 
 @lru_cache(maxsize=16)
@@ -141,8 +163,13 @@ def members(linkage: Linkage) -> Members:
         if joint.fixed or isinstance(joint, Rigid):
             of[joint.name] = (holding(linkage.rigid_bodies, joint.needs) or 0,)
             continue
-        bars = {count + n: f"{start}–{joint.name}" for n, (start, _) in enumerate(joint.bars)}
-        block = {joint.name: f"slider {joint.name}"} if joint.travels else {}
+        if isinstance(joint, GroupPoint):
+            own = [link for link in joint.group.free if joint.name == joint.group.points[0]]
+            bars = {count + n: link.name for n, link in enumerate(link for link in own if link.points[1:])}
+            block = {link.points[0]: link.name for link in own if not link.points[1:]}
+        else:
+            bars = {count + n: f"{start}–{joint.name}" for n, (start, _) in enumerate(joint.bars)}
+            block = {joint.name: f"slider {joint.name}"} if joint.travels else {}
         count += len(bars)
         of[joint.name] = (*bars, *block)
         names |= bars | block
@@ -166,8 +193,14 @@ def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
     }
     several: dict[str, list[Member]] = {name: [*numbers] for name, numbers in found.items()}
     for joint in linkage.joints:
-        if joint.travels:
+        if joint.travels and block_of(linkage, joint.name) == joint.name:
             several[joint.name].append(joint.name)
+        if isinstance(joint, GroupPoint):
+            slots = (
+                slide for slide in joint.group.slides if joint.name == joint.group.points[0] and slide.turns
+            )
+            for slide in slots:
+                several[slide.point].append(link_member(linkage, joint.group.by_name[slide.on]))
         if isinstance(joint, RPR):
             several[joint.through] += members(linkage).of[joint.name]
         if isinstance(joint, RPP):
@@ -182,7 +215,8 @@ def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
 
 def guided(linkage: Linkage) -> tuple[str, ...]:
     """Return the names of what slides along a line, in the order of the joints."""
-    return tuple(members(linkage).names[joint.name] for joint in linkage.joints if joint.travels)
+    names = members(linkage).names
+    return tuple(names[block_of(linkage, joint.name)] for joint in linkage.joints if joint.travels)
 
 
 def meshing(linkage: Linkage) -> Mapping[str, bool]:
@@ -431,6 +465,145 @@ def contact(linkage: Linkage, joint: Crank) -> tuple[float | None, bool]:
     return (ratio / (ratio - 1.0), False) if apart and ratio < 0 else (None, False)
 
 
+class _Unknown(NamedTuple):
+    """An unknown of a group: the forces and couples on bodies of one unit of it, and what it is told to."""
+
+    forces: tuple[tuple[Member, Vector, Vector], ...]
+    couples: tuple[tuple[Member, float], ...]
+    tell: Callable[[Any], None]
+
+
+def _together(joint: GroupPoint, balance: _Balance) -> None:
+    """Let the links of a group hold each other, by all their balances at once; with its last joint."""
+    group = joint.group
+    if joint.name != group.points[-1]:
+        return
+    links = {link.name: link_member(balance.linkage, link) for link in group.members}
+    # of the links that meet in a point of the group, the first one has what the others leave
+    rest = {
+        name: next(links[link.name] for link in group.at_point(name) if link in group.free)
+        for name in group.points
+    }
+    moving = [*group.free]
+    unknown = list(_held(group, links, rest, balance))
+    rows = 3 * len(moving)
+    assert len(unknown) == rows
+    shape, size_of = np.shape(balance.motion.phase), balance.linkage.longest
+    matrix, right = np.zeros((*shape, rows, rows)), np.zeros((*shape, rows))
+    for n, link in enumerate(moving):
+        member, about = links[link.name], balance.place(link.points[0])
+        x, y = balance.total(member)
+        moment = balance.moment(member, about)
+        for name in (name for name, first in rest.items() if first == member):
+            pull = balance.pins[name]
+            x, y = x + pull[0], y + pull[1]
+            moment = moment + cross(_difference(balance.place(name), about), pull)
+        for row, part in enumerate((x, y, moment / size_of)):
+            right[..., 3 * n + row] = part
+        for column, one in enumerate(unknown):
+            for place, (u, v) in ((place, force) for on, place, force in one.forces if on == member):
+                turning = cross(_difference(place, about), (u, v)) / size_of
+                for row, part in enumerate((u, v, turning)):
+                    matrix[..., 3 * n + row, column] += part
+            for share in (share for on, share in one.couples if on == member):
+                matrix[..., 3 * n + 2, column] += share
+    with np.errstate(all="ignore"):
+        lost = ~(np.linalg.cond(np.where(np.isfinite(matrix), matrix, 0.0)) < 1.0 / NO_LEVER)
+    even = np.where(lost[..., None, None], np.eye(rows), matrix)
+    found = np.linalg.solve(even, -right[..., None])[..., 0]
+    found = np.where(lost[..., None], np.nan, found)
+    for column, one in enumerate(unknown):
+        one.tell(found[..., column][()])
+    for name, member in rest.items():
+        balance.meet(name, member, balance.pins[name])
+
+
+def _held(
+    group: LinkGroup, links: Mapping[str, Member], rest: Mapping[str, Member], balance: _Balance
+) -> Iterator[_Unknown]:
+    """Yield what holds the links of a group: pins, lines, gears, and a motor between two of them."""
+    points = dict.fromkeys(name for link in group.free for name in link.points)
+    for name in points:
+        place = balance.place(name)
+        own = [links[link.name] for link in group.free if name in link.points]
+        for member in own[1:] if name in rest else own:
+            for axis in ((1.0, 0.0), (0.0, 1.0)):
+                yield _at_pin(name, place, member, axis, rest, balance)
+    for slide in group.slides:
+        line = group.line(slide)
+        assert line is not None
+        normal, place = _left(balance.along(line)[0]), balance.place(slide.point)
+        block, carrier = links[slide.link], links[slide.on]
+        if slide.turns:
+            yield _at_pin(slide.point, place, carrier, normal, rest, balance)
+            continue
+        push, turn = _guiding(slide.point, block, carrier, place, normal, balance)
+        yield push
+        yield turn
+    for gear in (gear for gear in group.gears if not gear.motor):
+        (one, other), carrier, ratio = (
+            (links[name] for name in gear.links),
+            links[gear.carrier],
+            float(gear.ratio),
+        )
+        yield _couple(((other, 1.0), (one, -ratio), (carrier, ratio - 1.0)), gear.name, balance)
+    if group.motor:
+        one, other = (links[name] for name in group.motor.links)
+        yield _couple(((other, 1.0), (one, -1.0)), "", balance)
+
+
+def _at_pin(
+    name: str, place: Vector, member: Member, axis: Vector, rest: Mapping[str, Member], balance: _Balance
+) -> _Unknown:
+    """Return the force of a pin on a body along an axis, for which the body that has the rest pays."""
+
+    def tell(found: Any) -> None:
+        balance.meet(name, member, _scaled(axis, found))
+
+    back = ((rest[name], place, _scaled(axis, -1.0)),) if name in rest else ()
+    return _Unknown(((member, place, axis), *back), (), tell)
+
+
+def _guiding(
+    name: str, block: Member, carrier: Member, place: Vector, normal: Vector, balance: _Balance
+) -> tuple[_Unknown, _Unknown]:
+    """Return the force of a guide on a block, and its moment."""
+    size_of, back = balance.linkage.longest, _scaled(normal, -1.0)
+    balance.guides[name] = 0.0, 0.0
+
+    def push(found: Any) -> None:
+        balance.guides[name] = found, balance.guides[name][1]
+        balance.apply(block, place, _scaled(normal, found))
+        balance.apply(carrier, place, _scaled(back, found))
+
+    def turn(found: Any) -> None:
+        moment = found * size_of
+        balance.guides[name] = balance.guides[name][0], moment
+        balance.couples[block] = balance.couples[block] + moment
+        balance.couples[carrier] = balance.couples[carrier] - moment
+
+    return (
+        _Unknown(((block, place, normal), (carrier, place, back)), (), push),
+        _Unknown((), ((block, 1.0), (carrier, -1.0)), turn),
+    )
+
+
+def _couple(shares: tuple[tuple[Member, float], ...], gear: str, balance: _Balance) -> _Unknown:
+    """Return the moment of a pair of gears, or of the motor where none is named."""
+    size_of = balance.linkage.longest
+
+    def tell(found: Any) -> None:
+        moment = found * size_of
+        if gear:
+            balance.gears[gear] = None, None, moment
+        else:
+            balance.effort = moment
+        for member, share in shares:
+            balance.couples[member] = balance.couples[member] + share * moment
+
+    return _Unknown((), shares, tell)
+
+
 _KINDS: Mapping[type[Joint], Callable[[Any, _Balance], None]] = {
     RRR: _bars,
     RRP: _bar_to_slider,
@@ -440,6 +613,8 @@ _KINDS: Mapping[type[Joint], Callable[[Any, _Balance], None]] = {
     DrivenSlider: _driven_slider,
     Rigid: _point,
     Brace: _point,
+    GroupPoint: _together,
+    GroupSlider: _together,
 }
 
 
@@ -525,10 +700,10 @@ def reactions(motion: Any) -> Reactions:
 
     Where a lever and the moment over it vanish together, forces are those beside, interpolated.
     """
-    if any(joint.grouped for joint in motion.mechanism.linkage.joints):
+    if not all(joint.reacts for joint in motion.mechanism.linkage.joints):
         raise BadInput(
-            "forces in the joints of links that can only be solved together are not worked out; the input's"
-            " effort is"
+            "forces of a block on two lines, or of a slot on a link of one point, are not worked out; what"
+            " the input delivers is"
         )
     with np.errstate(all="ignore"):
         return _reactions(motion)
@@ -602,7 +777,7 @@ def _told(balance: _Balance, found: list[Array]) -> Reactions:
             for joint in linkage.by_name
             if len(joints[joint]) > 1 or joint in ends
         },
-        {balance.members.names[name]: guide for name, guide in guides.items()},
+        {balance.members.names[block_of(linkage, name)]: guide for name, guide in guides.items()},
         gears,
         (force(own), force(own)),
         told(next(numbers) * metre, own * (_reach(linkage) * metre)),

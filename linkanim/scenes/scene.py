@@ -139,8 +139,8 @@ class Scene:
             raise BadInput(f"{self.name}: {reason}; give a body a mass, or add [loads]")
         if not self.linkage.reacting:
             raise BadInput(
-                f"{self.name}: forces in joints of links that are solved together are not worked out; "
-                "what the input delivers is"
+                f"{self.name}: forces of a block on two lines, or of a slot on a link of one point, are not "
+                "worked out; what the input delivers is"
             )
 
     @property

@@ -156,12 +156,13 @@ def test_teeth_press_at_the_angle_that_is_stated(said: Callable[..., str]) -> No
         assert gears["radial"] == pytest.approx(100.0 * math.tan(math.radians(angle)))
 
 
-def test_links_that_are_solved_together_have_an_effort_and_no_forces_in_joints(
+def test_links_that_are_solved_together_have_forces_that_are_not_derived(
     said: Callable[..., str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene = document("triad", 3) | {"loads": {"p": {"on": "plate", "torque": "2 N m"}}}
     found = json.loads(said("solve", tomli_w.dumps(scene), "--phase", "60 deg", "--json"))
     assert found["input"]["torque"]
-    assert "reactions" not in found
-    assert main(["draw", str(tmp_path / "scene.toml"), "--vectors", "f", "-o", str(tmp_path / "x.svg")]) == 2
-    assert "forces in joints of links that are solved together" in capsys.readouterr().err
+    assert {*found["reactions"]["B"]} == {"AB", "plate"}
+    assert main(["draw", str(tmp_path / "scene.toml"), "--vectors", "f", "-o", str(tmp_path / "x.svg")]) == 0
+    assert main(["explain", str(tmp_path / "scene.toml"), "--forces", "-o", str(tmp_path / "x.html")]) == 2
+    assert "are not derived line by line" in capsys.readouterr().err

@@ -16,8 +16,10 @@ from mpmath import mp
 from newton_euler import EVERY, laden, linkages, worst
 from random_joints import Make, bar_that_limits_the_input, driven_by_a_slider, slot_that_limits_the_input
 from reference import DIGITS
+from test_groups import BETWEEN, BUTTERFLY, FIVE, HELD, STEPHENSON_III, TWO_PINS
 
 from linkanim.mechanics.forces import input_effort
+from linkanim.mechanics.groups import GroupPoint
 from linkanim.mechanics.linkage import (
     RRR,
     Body,
@@ -35,8 +37,9 @@ from linkanim.mechanics.linkage import (
 )
 from linkanim.mechanics.measures import line_direction, loaded
 from linkanim.mechanics.motion import mechanism
-from linkanim.mechanics.reactions import Reactions, guided, meeting, meshing, reactions
+from linkanim.mechanics.reactions import Reactions, guided, meeting, member_of, meshing, reactions
 from linkanim.scenes import load
+from linkanim.scenes.reading import scene_from
 
 PUBLISHED = json.loads((Path(__file__).parent / "forces.json").read_text(encoding="utf-8"))
 
@@ -465,3 +468,96 @@ def test_a_pose_has_the_forces_of_the_motion() -> None:
         for joint, bodies in pose.joints.items():
             for body, force in bodies.items():
                 assert force == pytest.approx([part[n] for part in motion.joints[joint][body]], rel=1e-11)
+
+
+GROUPS: dict[str, dict[str, Any]] = {
+    "a Stephenson linkage": STEPHENSON_III,
+    "a double butterfly": BUTTERFLY,
+    "a block with two pins": TWO_PINS,
+    "a motor between moving links": BETWEEN,
+    **{name: {**FIVE, **held_by} for name, held_by in HELD.items()},
+}
+
+
+def group(name: str, seed: int) -> Linkage:
+    document = {"length_unit": "mm", **GROUPS[name]}
+    return laden(scene_from(document, name="my", where="my.toml").linkage, seed)
+
+
+@pytest.mark.parametrize("static", [False, True], ids=["in motion", "static"])
+@pytest.mark.parametrize("name", GROUPS)
+def test_the_effort_of_links_that_are_solved_together_is_that_of_power(name: str, static: bool) -> None:
+    scene = replace(group(name, 5), static=static)
+    motion = mechanism(scene).solve(phase=np.linspace(0.3, 2.9, 12), speed=4.0, acceleration=2.0)
+    found, power = np.asarray(reactions(motion).effort), np.asarray(input_effort(motion))
+    assert found == pytest.approx(power, abs=1e-12 * np.abs(power).max())
+
+
+@pytest.mark.parametrize("name", GROUPS)
+def test_all_that_acts_on_each_of_the_links_that_are_solved_together_is_its_inertia(name: str) -> None:
+    scene = group(name, 7)
+    motion = mechanism(scene).solve(phase=np.linspace(0.3, 2.9, 12), speed=4.0, acceleration=2.0)
+    found, metre = reactions(motion), scene.metre
+    at = {joint: place @ [1, 1j] * metre for joint, place in motion.position.items()}
+    sums: dict[str, list[Any]] = {body.name: [0j, 0.0] for body in scene.bodies}
+    frames = scene.rigid_bodies
+    blocks = {one.slider: one.name for one in scene.bodies if one.slider}
+
+    def act(body: str, place: Any, force: Any, couple: Any = 0.0) -> None:
+        if body in sums:
+            sums[body][0] = sums[body][0] + force
+            sums[body][1] = sums[body][1] + (np.conj(place) * force).imag + couple
+
+    def own(body: Body) -> str:
+        """A block with two pins is the link that has them."""
+        link = member_of(scene, body)
+        return f"b{link}" if isinstance(link, int) else body.name
+
+    for joint, bodies in found.joints.items():
+        for name_of, (x, y) in bodies.items():
+            act(name_of, at[joint], np.asarray(x) + 1j * np.asarray(y))
+    for joint, slide in scene.slides.items():
+        u, v = line_direction(motion, slide.line)
+        across = 1j * (np.asarray(u) + 1j * np.asarray(v))
+        block = own(scene.body(blocks[joint]))
+        guide = found.guides[block]
+        act(block, at[joint], across * guide.force, guide.moment)
+        if slide.line.on:
+            carrier = next(n for n, frame in enumerate(frames) if {*slide.line.body} <= frame.keys())
+            act(f"b{carrier}", at[joint], -across * guide.force, -guide.moment)
+    geared = {
+        f"b{n}"
+        for point in scene.joints
+        if isinstance(point, GroupPoint)
+        for gear in point.group.gears
+        for link in (*gear.links, gear.carrier)
+        for n, frame in enumerate(frames)
+        if n and {*point.group.by_name[link].points} <= frame.keys()
+    }
+    driven = own(scene.body("b1")) if isinstance(scene.driven.joint, Crank) else ""
+    for one in scene.loads:
+        arm, (x, y) = loaded(motion, one)
+        loose = scene.body(one.on)
+        base = at[loose.slider or loose.joints[0]]
+        place = base + (np.asarray(arm[0]) + 1j * np.asarray(arm[1])) * metre
+        act(own(loose), place, np.asarray(x) + 1j * np.asarray(y), one.torque)
+    struts: list[Spring | Damper] = [*scene.springs, *scene.dampers]
+    for strut in struts:
+        known = {**motion.spring, **motion.damper}[strut.name]
+        first, last = strut.between
+        pull = known.force * (at[last] - at[first]) / abs(at[last] - at[first])
+        for end, way in ((first, pull), (last, -pull)):
+            if end not in found.joints:
+                act(f"b{next(n for n, frame in enumerate(frames) if end in frame)}", at[end], way)
+    for body in scene.bodies:
+        centre = at[body.slider] if body.slider else motion.com_position[body.name] @ [1, 1j] * metre
+        bent = motion.acceleration[body.slider] if body.slider else motion.com_acceleration[body.name]
+        turned = (body.inertia or 0.0) * motion.angular_acceleration[body.name] if body.inertia else 0.0
+        act(own(body), centre, (body.mass or 0.0) * (-1j * scene.gravity - bent @ [1, 1j] * metre), -turned)
+    largest = max(np.abs(force).max() for bodies in found.joints.values() for force in bodies.values())
+    reach = max(abs(place).max() for place in at.values())
+    for name_of, (force, moment) in sums.items():
+        assert np.abs(force).max() < 1e-12 * largest, name_of
+        moved = name_of == driven or scene.driven.joint.grouped or name_of in geared
+        if not moved:
+            assert np.abs(moment).max() < 1e-12 * largest * max(reach, 1.0), name_of
