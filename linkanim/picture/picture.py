@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import cached_property
 from math import ceil
 from typing import TYPE_CHECKING
+from unicodedata import normalize
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.centres import Centres
@@ -38,9 +39,12 @@ from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from linkanim.picture.polygons import Polygon
+    from linkanim.synthesis.constructions import Mark
     from linkanim.synthesis.curves import DrawnCurve
 
 _NOTHING_STILL = Group("nothing", (), still=True)
+_SAME = 1e-9
+"""How far apart one and the same point may be found in two ways, in sizes of the linkage."""
 
 
 class Picture:
@@ -237,13 +241,27 @@ class Picture:
 
         shown = shown_at(self._goal, steps, pose.phase)
         pen = pen_for(self.layout, self.type, self.theme)
-        marks = [mark for step in shown.steps for mark in step.marks]
+        marks = [self._said_once(mark, pose) for step in shown.steps for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
         facts = f"step {len(shown.steps)} of {shown.total}"
         facts = facts if self._moment is not None else f"{facts} · F7 goes on"
         beside = slider_rect(self.layout) if leading else None
         yield worded(self.drawing.setting, shown.steps[-1].words, [facts], beside=beside)
         yield from self._slider(leading)
+
+    def _said_once(self, mark: Mark, pose: Pose) -> Mark:
+        """Return a mark of a point without its label where the joint there has the same letter already."""
+        name = normalize("NFKC", mark.label)  # subscripts as plain digits
+        place = (
+            pose.position.get(name) if any(one.of == f"joint:{name}" for one in self.names.labels) else None
+        )
+        if (
+            place is None
+            or len(mark.points) > 1
+            or abs(mark.points[0] - complex(*place)) > _SAME * self.figure.extent
+        ):
+            return mark
+        return mark._replace(label="")
 
     def _band(self, shown: BandShown) -> Group:
         from linkanim.picture.marks import band

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
+from unicodedata import normalize
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
+from linkanim.picture.text import subscripted
 from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
 from linkanim.synthesis.constructions import Mark, dead_centres
@@ -191,6 +193,18 @@ def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
     assert "it lies on the line through P₁₄ and P₃₄, too: there it is" in " ".join(said)
     assert "step 3 of 5" in said
     assert scene.title not in said  # what stands there else would lie below
+
+
+@pytest.mark.parametrize("letters", [0, 1])
+def test_a_joint_has_its_letter_once_beside_a_construction(letters: int) -> None:
+    scene = load("crank-rocker")
+    picture = Picture(scene, (1280, 720), Look(names=letters))
+    over = Overlay(construction=len(steps_of(scene, "dead-centres")))
+    said = [line.text for group in picture.groups(scene.pose(0.3, 2), over) for line in group.captions]
+    for name in ("O₂", "O₄"):
+        written = {name, subscripted(normalize("NFKC", name))}
+        assert sum(text in written for text in said) == 1
+    assert "B″" in said
 
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
