@@ -688,6 +688,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value(
             "--chart OFF", Path, "draw how far, over a period, as SVG, PNG, PDF or CSV (with --tolerance)"
         ),
+        _value(
+            "--balance OUT",
+            Path,
+            "draw what inertia does to the ground, without and with counterweights (SVG, PNG, PDF, CSV)",
+        ),
         _flag("--json", "print one object; angles in radians, times in seconds"),
     ),
     "check": (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from argparse import Namespace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkanim import units
 from linkanim.atomic_files import checked_target
@@ -16,7 +17,10 @@ from linkanim.scenes.deviation import SAMPLES, Off, Tolerance, tolerance
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
-_CHARTS = (".svg", ".png", ".pdf", ".csv")
+if TYPE_CHECKING:
+    from linkanim.paper.write import Written
+
+CHARTS = (".svg", ".png", ".pdf", ".csv")
 
 
 def asked(scene: Scene, options: Namespace) -> Tolerance | None:
@@ -29,7 +33,7 @@ def asked(scene: Scene, options: Namespace) -> Tolerance | None:
     if options.tolerance is None:
         return None
     if options.chart is not None:
-        options.chart = checked_target(options.chart, _CHARTS, [options.scene])
+        options.chart = checked_target(options.chart, CHARTS, [options.scene])
     by = units.length(options.tolerance, unit=scene.length_unit)
     with bar(unit=" steps") as progress:
         return tolerance(scene, by, progress=progress)
@@ -90,10 +94,15 @@ def object_of(found: Tolerance) -> dict[str, object]:
 
 def draw(found: Tolerance, target: Path) -> None:
     """Draw how far the first quantity may be off over a period."""
-    from linkanim.cli.letters import tell_of_picture
     from linkanim.paper.tolerances import ToleranceChart
+
+    draw_page(ToleranceChart(found), target)
+
+
+def draw_page(page: Written, target: Path) -> None:
+    """Write a page as the file's name says, and tell which of its letters have no font."""
+    from linkanim.cli.letters import tell_of_picture
     from linkanim.paper.write import write
 
-    chart = ToleranceChart(found), Output(target)
-    write(*chart)
-    tell_of_picture(*chart)
+    write(page, Output(target))
+    tell_of_picture(page, Output(target))

@@ -93,12 +93,30 @@ class Shaking(NamedTuple):
     moment: float
 
 
-def shaking(linkage: Linkage, speed: float) -> Shaking:
-    """Return what inertia alone does to the ground at an even speed (rad/s of phase)."""
+class Shaken(NamedTuple):
+    """What inertia does to the ground over a period: phases, the force's size (N), the moment (N m)."""
+
+    phases: Array
+    force: Array
+    moment: Array
+
+    @property
+    def greatest(self) -> Shaking:
+        """The greatest of both."""
+        return Shaking(float(self.force.max()), float(np.abs(self.moment).max()))
+
+
+def shaken(linkage: Linkage, speed: float) -> Shaken:
+    """Return what inertia alone does to the ground at an even speed (rad/s of phase), the moment about 0."""
     alone = replace(linkage, gravity=0.0, loads=(), springs=(), dampers=())
     solved = mechanism(alone)
     found = solved.solve(phase=solved.phases, speed=speed).reactions
-    return Shaking(float(np.hypot(*found.ground).max()), float(np.abs(found.moment).max()))
+    return Shaken(solved.phases, np.hypot(*found.ground), np.asarray(found.moment))
+
+
+def shaking(linkage: Linkage, speed: float) -> Shaking:
+    """Return the greatest that inertia alone does to the ground at an even speed (rad/s of phase)."""
+    return shaken(linkage, speed).greatest
 
 
 def balanced(linkage: Linkage, weights: tuple[Counterweight, ...]) -> Linkage:

@@ -16,6 +16,7 @@ From the ground up; a module imports from those before it only:
     vectors       the vectors of a worked solution's loops
     free_bodies   each body of a worked solution with the forces on it
     construction  how a linkage was synthesised, and its structural error
+    balance       what inertia does to the ground, without and with counterweights
     tolerances    how far a quantity may be off over a period, as a chart
     write         a figure or a chart as a file, in the format that its name's ending states
     findings      the content of a report on a scene: facts, tables, which charts

@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -99,3 +100,25 @@ def test_info_tells_flywheel_and_counterweights(tmp_path: Path, capsys: pytest.C
         assert label in words
     assert main(["info", "crank-rocker"]) == 0
     assert "flywheel" not in capsys.readouterr().out
+
+
+def test_the_balance_is_drawn_without_and_with_counterweights(tmp_path: Path, capsys: Any) -> None:
+    path, table, drawn = (tmp_path / name for name in ("heavy.toml", "balance.csv", "balance.svg"))
+    path.write_text(FOUR_BAR, encoding="utf-8")
+    assert main(["info", str(path), "--json", "--balance", str(table)]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    rows = np.genfromtxt(table, delimiter=",", names=True)
+    for n, name in enumerate(("", "_balanced")):
+        assert rows[f"force{name}"].max() == pytest.approx(facts["shaking_force"][n], abs=1e-9)
+        assert np.abs(rows[f"moment{name}"]).max() == pytest.approx(facts["shaking_moment"][n], abs=1e-9)
+    assert main(["info", str(path), "--balance", str(drawn)]) == 0
+    text = drawn.read_text(encoding="utf-8")
+    assert "0 N with them" in text
+    assert "without counterweights" in text
+
+
+@pytest.mark.parametrize("name", ["press", "crank-rocker"])
+def test_what_has_no_counterweights_has_no_picture_of_them(name: str, tmp_path: Path, capsys: Any) -> None:
+    assert main(["info", name, "--balance", str(tmp_path / "balance.svg")]) == 2
+    assert "no four-bar whose coupler has a mass" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())

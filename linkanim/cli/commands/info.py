@@ -6,13 +6,18 @@ from argparse import Namespace
 from cmath import phase
 from collections.abc import Iterator
 from math import degrees
+from typing import TYPE_CHECKING
 
+from linkanim.atomic_files import checked_target
 from linkanim.cli import tolerances
 from linkanim.export import json_text
 from linkanim.mechanics.balance import Counterweight, Shaking, balanced, counterweights, flywheel, shaking
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.units import rpm, significant, typeset
+
+if TYPE_CHECKING:
+    from linkanim.paper.balance import BalanceChart
 
 _OF_A_SCENE = ("title", "chapter", "source", "look_at", "length_unit")
 _OF_ITS_MOTION = (
@@ -27,6 +32,7 @@ def run(options: Namespace) -> None:
     """Print the scene's class, limits and what follows from them, in words or as one JSON object."""
     scene = load(options.scene)
     found = tolerances.asked(scene, options)
+    balance = _balance(scene, options)
     if options.json:
         facts = as_object(scene) | evened(scene, options.fluctuation)
         facts |= {} if found is None else {"tolerance": tolerances.object_of(found)}
@@ -37,6 +43,20 @@ def run(options: Namespace) -> None:
             print(f"\n{tolerances.table_of(found)}")
     if found is not None and options.chart is not None:
         tolerances.draw(found, options.chart)
+    if balance is not None:
+        tolerances.draw_page(balance, options.balance)
+
+
+def _balance(scene: Scene, options: Namespace) -> BalanceChart | None:
+    """Return the chart of the balance that is asked for; BadInput where there is none to draw."""
+    if options.balance is None:
+        return None
+    from linkanim.paper.balance import BalanceChart
+
+    options.balance = checked_target(options.balance, tolerances.CHARTS, [options.scene])
+    found = BalanceChart(scene=scene)
+    assert found.both
+    return found
 
 
 def as_words(scene: Scene, fluctuation: float) -> str:
