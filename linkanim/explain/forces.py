@@ -74,6 +74,13 @@ class Acting(NamedTuple):
     force: Components
 
 
+_SENSES = (
+    "Unknown forces are taken to the right and up, those of guides to the left of their lines, couples "
+    "counter-clockwise. Where a result is negative, it points the other way; the bodies are drawn with the "
+    "forces as they are."
+)
+
+
 class FreeBody(NamedTuple):
     """All that acts on a body: forces, couples by their names, and the point of its equation of moments."""
 
@@ -510,7 +517,8 @@ def forces(balance: Balance, about: str | None = None) -> Forces:
         solved.append(Step(f"Ground at {marked(pin.name)}", lines))
     bodies = tuple(_free(member, balance, about) for member in balance.members.names if member)
     equations = [(body, _equations(body, balance)) for body in bodies]
-    steps = [Step("What is known", known)] if known else []
+    steps = [Step("", (Words(_SENSES),))]
+    steps += [Step("What is known", known)] if known else []
     steps += [Step(f"{_words(body)}, free", _freed(body, found)) for body, found in equations]
     steps += _system([one for _, found in equations for one in found], balance)
     steps += [step for step in solved if step.items]

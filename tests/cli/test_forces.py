@@ -13,27 +13,12 @@ from typing import Any
 import numpy as np
 import pytest
 import tomli_w
+from pushed import PUSHED
 from random_groups import document
 
 import linkanim
 from linkanim.cli import main
 
-PUSHED = """
-gravity = "9.81 m/s^2"
-[drive]
-slider = { joint = "C", from = 110, to = 230 }
-[ground]
-O = [0, 0]
-[joints.C]
-line = { through = "O" }
-[joints.K]
-from = ["C", "O"]
-length = [110, 120]
-[bodies]
-ram = { slider = "C" }
-upper = { joints = ["O", "K"], com = [60, 0], mass = "1 kg" }
-"""
-"""A slider that pushes two bars straight: at that end all forces are unbounded, but that on the ground."""
 WEIGHED = """
 gravity = "9.81 m/s^2"
 [slider-crank]

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from newton_euler import EVERY, laden, linkages
 from printed import checks_of, of_html, of_latex, of_markdown
+from pushed import PUSHED
 from random_joints import Make
 
 from linkanim.cli import main
@@ -121,22 +122,6 @@ def test_moments_are_about_the_joint_that_is_asked_for() -> None:
     text = document(forces_of(four_bar(), 0.9, about="B"), MARKDOWN)
     assert "their moments about B" in text
     assert "their moments about O4" not in text
-
-
-PUSHED = """
-gravity = "9.81 m/s^2"
-[drive]
-slider = { joint = "C", from = 110, to = 230 }
-[ground]
-O = [0, 0]
-[joints.C]
-line = { through = "O" }
-[joints.K]
-from = ["C", "O"]
-length = [110, 120]
-[bodies]
-upper = { joints = ["O", "K"], com = [60, 0], mass = "1 kg" }
-"""
 
 
 def test_where_forces_grow_without_bound_no_number_is_given() -> None:
@@ -250,3 +235,8 @@ def test_latex_has_the_bodies_free_with_every_force_on_them(name: str) -> None:
 def test_latex_sets_small_numbers_in_its_standard_fonts() -> None:
     # a residual of 3.3×10⁻⁶ asked for another engine
     assert "fontspec" not in document(forces_of(load("press"), 1.1), TEX)
+
+
+def test_the_sheet_says_which_way_unknown_forces_are_taken() -> None:
+    text = document(forces_of(four_bar(), 1.1), MARKDOWN)
+    assert "is negative, it points the other way" in text

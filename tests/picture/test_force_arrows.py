@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from pushed import PUSHED
 
 from linkanim.mechanics.quantities import register
 from linkanim.picture.figure import Figure, figure
@@ -21,21 +22,6 @@ from linkanim.scenes.toml import parse
 LOOK = Look(vectors=frozenset({FORCE}))
 GAUGE = Gauge(8.0, 6.0, 2.0, 1.0)
 VIEW = View(1.0, 0.0, 0.0)
-DEAD = """
-gravity = "9.81 m/s^2"
-[drive]
-slider = { joint = "C", from = 110, to = 230 }
-[ground]
-O = [0, 0]
-[joints.C]
-line = { through = "O" }
-[joints.K]
-from = ["C", "O"]
-length = [110, 120]
-[bodies]
-ram = { slider = "C" }
-upper = { joints = ["O", "K"], com = [60, 0], mass = "1 kg" }
-"""
 
 
 def arrows_of(shown: Figure, moment: float | None = None) -> Arrows:
@@ -69,7 +55,7 @@ def test_the_longest_arrow_of_a_cycle_is_as_long_at_any_speed_or_shorter() -> No
 
 
 def test_a_force_that_grows_without_bound_has_no_arrow_there_and_no_other_is_lost() -> None:
-    shown = figure(scene_from(parse(DEAD, "my.toml"), name="my", where="my.toml"))
+    shown = figure(scene_from(parse(PUSHED, "my.toml"), name="my", where="my.toml"))
     found = arrows_of(shown)
     at_the_end = found.seen(shown.scene.pose(math.pi, 2), VIEW, shown.moving)
     assert at_the_end == []

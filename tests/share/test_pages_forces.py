@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import read_tables
 from browser import PROGRAM, Page, browser
+from pushed import PUSHED
 from shared_page import go_to, pressed, put, shown
 
 from linkanim.cli import main
@@ -50,27 +51,12 @@ force = ["20 N", "-7 N"]
 between = ["B", "O2"]
 coefficient = "300 N s/m"
 """
-DEAD = """
-gravity = "9.81 m/s^2"
-[drive]
-slider = { joint = "C", from = 110, to = 230 }
-[ground]
-O = [0, 0]
-[joints.C]
-line = { through = "O" }
-[joints.K]
-from = ["C", "O"]
-length = [110, 120]
-[bodies]
-ram = { slider = "C" }
-upper = { joints = ["O", "K"], com = [60, 0], mass = "1 kg" }
-"""
 
 
 def scene_of(name: str) -> Scene:
     """Return a scene of the catalogue or of the above; with `, same` it comes back as it went."""
     name, _, more = name.partition(", ")
-    text = {"loaded": LOADED, "dead": DEAD}.get(name)
+    text = {"loaded": LOADED, "dead": PUSHED}.get(name)
     scene = scene_from(parse(text, name), name=name, where=name) if text else load(name)
     return {"": lambda: scene, "same": lambda: other_return(scene), "static": lambda: scene.without_inertia}[
         more
