@@ -166,7 +166,7 @@ def math_style() -> str:
     return f"\n@font-face {{ font-family: 'Linkanim Math'; src: {source}; }}{_MATH}"
 
 
-_INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
+_INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)((?:&#x27;)*)$")
 
 
 class QuestionParts(NamedTuple):
@@ -376,7 +376,7 @@ _LIGHTS = r"""
 
 
 def _html_words(text: str) -> str:
-    return MARKED.sub(lambda found: _INDEXED.sub(r"<sub>\1</sub>", found[1]), escape(text))
+    return MARKED.sub(lambda found: _INDEXED.sub(r"<sub>\1</sub>\2", found[1]), escape(text))
 
 
 def _html_aligned(found: list[EquationRow]) -> str:

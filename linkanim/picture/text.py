@@ -240,7 +240,7 @@ _LOOSE = 7
 _SUBSCRIPT = re.compile(r"_\{([^{}]*)\}|([\u2080-\u209c\u1d62-\u1d6a\u2c7c]+)")
 _HYPHENED = re.compile(r"[^-]*-|[^-]+")
 _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
-_INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
+_INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)('*)$")
 
 
 _KEPT = 2048
@@ -279,8 +279,8 @@ def typesetting(size: int) -> Typesetting:
 
 
 def subscripted(name: str) -> str:
-    """Return a name with the number it ends in as a subscript: O2 as O₂; another name as it is."""
-    return _INDEX.sub(lambda found: found[1].translate(_LOWERED), name)
+    """Return a name with the number it ends in as a subscript: O2 as O₂, O2' as O₂'; another as it is."""
+    return _INDEX.sub(lambda found: found[1].translate(_LOWERED) + found[2], name)
 
 
 _Place = tuple[str, int, int, int]

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import linkanim
+from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.mechanics.measures import as_complex
+from linkanim.picture.text import subscripted
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse, text
@@ -71,3 +74,12 @@ def test_gears_need_two_places() -> None:
 def test_a_pair_is_named_by_its_links(kind: str, words: str) -> None:
     options: dict[str, Any] = {"kind": kind, "mirror": "x=300", "count": 1}
     assert words in linkanim.guide(POSES, **options)[0].class_name
+
+
+def test_names_of_the_image_are_set_as_the_others_are(tmp_path: Path) -> None:
+    assert subscripted("O2'") == "O₂'"
+    one = linkanim.guide(POSES, mirror="x=300", count=1)[0]
+    (tmp_path / "pair.toml").write_text(text(one.scene), encoding="utf-8")
+    assert main(["explain", str(tmp_path / "pair.toml"), "-o", str(tmp_path / "pair.html")]) == 0
+    page = (tmp_path / "pair.html").read_text(encoding="utf-8")
+    assert "O<sub>4</sub>&#x27;" in page
