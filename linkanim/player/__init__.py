@@ -6,6 +6,7 @@ From the ground up; a module imports from those before it only:
     action     what can be asked of the player, as plain data
     keys       the one table of keys and gamepad buttons
     state      all that one frame of the window shows, and what a mode is
+    helping    a mode that is seen through: the help
     rules      what values actions may have
     commands   the bar of commands, and menus
     pointing   what is under the mouse, and the words about it
@@ -14,6 +15,7 @@ From the ground up; a module imports from those before it only:
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse
     edits      actions that show another scene; a mode: the list of dimensions
+    making     two modes: the steps of a construction; layers in which a scene can be made
     sketching  what the pencil and poses share: answers come, one is kept
     dial       the pencil's dial, from the most exact answer to the most compact
     building   two modes: the sheet, on which a linkage is built, and the list of dimensions on it
@@ -25,7 +27,6 @@ From the ground up; a module imports from those before it only:
     reassembling  a mode: all closures of the scene, one of which becomes the scene
     pencil     a mode: a stroke is drawn, and linkages that follow it come
     posing     a mode: poses of a body are set down, and linkages that pass them come
-    making     the steps of a construction; a mode: layers in which a scene can be made
     naming     a mode: the name of the file to be written
     taking     a mode: how a recording is made, and where it goes
     bands      a mode: the band within which traced points stay

@@ -17,7 +17,7 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import FORCE, TOGGLES, ConstructionKind, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
-from linkanim.player import building, edits, making, rules, taking
+from linkanim.player import building, edits, helping, making, rules, taking
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop
@@ -223,13 +223,13 @@ def back(state: State, _: None) -> State:
     From a mechanism it leads back to the title, if the window opened on the title.
     """
     if state.help and not state.keys.alone:
-        return replace(state, help=False)
+        return state.unhelped
     if state.top:
         return state.top.closed(state)
     if state.place_typed:
         return replace(state, place_typed="", chip=None)
     if state.constructed:
-        return replace(state, construction=None)
+        return state.modes[-1].closed(state)
     if state.lesson:
         return replace(state, lesson=None)
     if state.from_title and state.games:
@@ -299,11 +299,11 @@ def play(state: State, words: str) -> State:
     game = state.games(words)
     if state.beneath is None:
         state = drop(left(state), None)
-        state = replace(state, beneath=replace(state.unlisted, help=False))
+        state = replace(state, beneath=state.unlisted.unhelped)
     bare = replace(state, modes=(), glide=None, home=None, toast=None)
     bare = replace(bare, also=(), place_typed="", chip=None)
     editing = Editing()
-    return game.entered(replace(bare, editing=editing, help=False, faded=state.frame).with_mode(game))
+    return game.entered(replace(bare, editing=editing, faded=state.frame).with_mode(game))
 
 
 def leave(state: State) -> State:
@@ -316,7 +316,7 @@ def leave(state: State) -> State:
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, from_title=state.from_title, kiosk=state.kiosk, take=state.take)
     resumed = replace(resumed, stirred=state.stirred)  # what was clicked in the game has brought the bar
-    above = (one for one in state.unlisted.modes if not isinstance(one, Game))
+    above = (one for one in state.unlisted.unhelped.modes if not isinstance(one, Game))
     resumed = replace(resumed, modes=(*under.modes, *above))
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
 
@@ -426,7 +426,7 @@ ACTIONS: Mapping[str, Rule] = {
     "chart": Rule(rules.whole, chart, answer=_chart),  # quantities further
     "plot": Rule(rules.text, edits.plot, answer=_chart),  # a quantity's token
     "strip": Rule(rules.text, edits.strip, answer=_chart),  # a quantity's token, charted below or removed
-    "help": Rule(rules.nothing, lambda state, _: replace(state, help=not state.help)),
+    "help": Rule(rules.nothing, helping.toggle),
     # notches, about the point (x, y): window heights from the stage's middle, y down
     "zoom": Rule(rules.numbers(3), zoom, answer=_zoom),
     "pan": Rule(rules.numbers(2), pan),  # window heights, right and down
@@ -573,7 +573,7 @@ def settled(before: State, state: State) -> State:
 def _in_a_game(state: State, game: Game, action: Action) -> State:
     """Return the state with an action handed to its game; while the help is open, only back is possible."""
     if state.help:
-        return replace(state, help=False) if action.name == "back" else state
+        return state.unhelped if action.name == "back" else state
     return _tried(state, action, lambda before: game.carried(before, action))
 
 

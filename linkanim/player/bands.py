@@ -18,6 +18,7 @@ from linkanim.picture.overlay import BandShown, Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, MOVING_BAR, BarEntry, KeyRow, ModeKeys, both
+from linkanim.player.making import Construction
 from linkanim.player.state import Mode, Rule, State, with_toast
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
@@ -61,7 +62,7 @@ def _toggle(state: State, _: None) -> State:
         found = _found(state.scene)
     except BadInput as error:
         return with_toast(state, str(error))
-    bare = replace(state.unlisted, help=False, construction=None)
+    bare = state.unlisted.unhelped.without(Construction)
     return bare if bare.keys.alone else bare.with_mode(ToleranceBand(bare.scene, _usual(found)))
 
 

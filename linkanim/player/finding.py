@@ -46,7 +46,7 @@ def _toggle(state: State, _: None) -> State:
     """Open the field, or close it."""
     if state.of(Finder):
         return state.without(Finder)
-    bare = replace(state.unlisted, help=False)
+    bare = state.unlisted.unhelped
     return bare if bare.keys.alone else bare.with_mode(Finder(0, others=Entries("Find", tuple(_all(bare)))))
 
 

@@ -26,6 +26,7 @@ from linkanim.player.action import Action, Value
 from linkanim.player.clock import Clock
 from linkanim.player.edits import put_scene
 from linkanim.player.keys import BACK_BAR, BarEntry, KeyRow, ModeKeys, TypedKeys, enter, on
+from linkanim.player.making import Construction
 from linkanim.player.state import Mode, Resolver, Rule, State, fresh, with_effect
 from linkanim.scenes import load, names
 from linkanim.scenes.files import in_its_form, path_of
@@ -84,14 +85,12 @@ class LessonStep:
 def stage(state: State, text: str) -> State:
     """Show a step, in the theme that is on; BadInput for a text that is none."""
     number, count, step = _staged(text)
-    state = _shelved(replace(state, modes=(), help=False), step.scene, step.phase)
+    state = _shelved(replace(state, modes=()), step.scene, step.phase)
     clock = fresh(state.scene).go(state.frame, step.phase, paused=not step.running)
     own = {name: getattr(state.look, name) for name in ("theme", "material", "background")}
     look = replace(step.look, **own)
-    construction = (state.scene, step.construction) if step.construction else None
-    return replace(
-        state, clock=clock, look=look, construction=construction, lesson=(number, count), toast=None
-    )
+    modes = (Construction(state.scene, step.construction),) if step.construction else ()
+    return replace(state, clock=clock, look=look, modes=modes, lesson=(number, count), toast=None)
 
 
 def _shelved(state: State, scene: Scene, phase: float) -> State:

@@ -64,7 +64,7 @@ def _menu(state: State, group: str | None) -> State:
     opened = menu_of(state, group) if not state.keys.alone else None
     if opened is None or (before and before.title == opened.title):
         return state
-    return replace(state, help=False).with_mode(Listing(0, others=opened))
+    return state.unhelped.with_mode(Listing(0, others=opened))
 
 
 def _move(state: State, further: int) -> State:

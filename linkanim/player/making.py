@@ -1,9 +1,10 @@
-"""Actions on the steps of a construction; and a mode: the layers in which a scene can be made."""
+"""Two modes: the steps of a construction, which is seen through; the layers in which a scene can be made."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import degrees
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -22,7 +23,6 @@ from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.edits import drop, exchanged, followed
 from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, BarEntry, KeyRow, ModeKeys, both, enter
-from linkanim.player.shown import FAMILY
 from linkanim.player.state import (
     Held,
     Mode,
@@ -33,7 +33,7 @@ from linkanim.player.state import (
     with_toast,
     with_undo,
 )
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.units import significant
 
 if TYPE_CHECKING:
@@ -97,6 +97,43 @@ def lift_to(state: State, step: int) -> State:
     return state.with_mode(replace(shown, lifted=min(max(step, 0), LIFTED))) if shown else state
 
 
+FAMILY = 100
+"""Steps from one end of a family of linkages to the other."""
+
+
+@frozen
+class Construction(Mode):
+    """So many steps of a scene's construction, while that scene is shown."""
+
+    scene: Scene
+    steps: int
+
+    actions: ClassVar[Mapping[str, Rule]] = {}
+    sees_through = True
+
+    def steps_of(self, scene: Scene) -> int:
+        """Return how many steps of a scene's construction it draws."""
+        return self.steps if scene is self.scene else 0
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the steps, and a slider along the scene's family."""
+        return replace(over, construction=state.constructed, slider=_slider(state) or over.slider)
+
+
+def _slider(state: State) -> SliderShown | None:
+    """Return the slider for what is shown; None where it has none."""
+    if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
+        return None
+    from linkanim.synthesis.quick_returns import member_of
+
+    member = member_of(state.scene)
+    if member is None:
+        return None
+    least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
+    label = f"transmission {least}, best {best}"
+    return SliderShown(label, "short coupler", "long coupler", FAMILY, round(member.place * FAMILY))
+
+
 def construct(state: State, further: int) -> State:
     """Draw `further` steps more of the scene's synthesis, then of its dead centres and its centres.
 
@@ -105,14 +142,14 @@ def construct(state: State, further: int) -> State:
     from linkanim.picture.constructed import all_steps
 
     at = (state.constructed + further) % (all_steps(state.scene) + 1)
-    return replace(state, construction=(state.scene, at) if at else None)
+    return state.with_mode(Construction(state.scene, at)) if at else state.without(Construction)
 
 
 def construction(state: State, kind: ConstructionKind) -> State:
     """Draw the first step of a construction; BadInput where the scene does not have it."""
     from linkanim.picture.constructed import steps_before
 
-    return replace(state, construction=(state.scene, steps_before(state.scene, kind) + 1))
+    return state.with_mode(Construction(state.scene, steps_before(state.scene, kind) + 1))
 
 
 def slide(state: State, step: int) -> State:
@@ -126,7 +163,7 @@ def slide(state: State, step: int) -> State:
     scene, steps = _member(held.scene, step), state.constructed
     editing = state.editing if state.scene is not held.scene else with_undo(state.editing, held.scene)
     state = exchanged(replace(state, held=held, glide=None, editing=cleared(editing)), scene)
-    return replace(state, construction=(scene, steps))
+    return state.with_mode(Construction(scene, steps))
 
 
 def along(state: State, by: int) -> State:
@@ -138,7 +175,7 @@ def along(state: State, by: int) -> State:
         return state
     steps, scene = state.constructed, _member(state.scene, round(member.place * FAMILY) + by)
     state = replace(state, editing=cleared(with_undo(state.editing, state.scene)))
-    return replace(followed(state, scene), construction=(scene, steps))
+    return followed(state, scene).with_mode(Construction(scene, steps))
 
 
 def _member(scene: Scene, step: int) -> Scene:

@@ -23,7 +23,6 @@ from linkanim.picture.overlay import (
     Overlay,
     RowsShown,
     Rubber,
-    SliderShown,
     Snap,
     SwingShown,
     ToolBar,
@@ -31,7 +30,6 @@ from linkanim.picture.overlay import (
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
-from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, told
 from linkanim.player.state import (
     SHUTTER_FRAMES,
@@ -41,7 +39,6 @@ from linkanim.player.state import (
     State,
     driven_bar,
 )
-from linkanim.scenes.scene import TimeRatioPurpose
 from linkanim.units import short, significant, typeset
 
 if TYPE_CHECKING:
@@ -236,8 +233,6 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
 # What lies over the picture: the state as an overlay.
 
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
-FAMILY = 100
-"""Steps from one end of a family of linkages to the other."""
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = r"\b[^\W\d_]\w*"
@@ -304,9 +299,6 @@ def _lasting(state: State, over: Hover | None = None) -> Overlay:
         paused=_stands(state) and not state.game,
         noted=True,
         recording=_recording(state),
-        help=help_groups(state.keys) if state.help else None,
-        construction=state.constructed,
-        slider=_slider(state),
         hover=over,
     )
     for mode in state.modes:
@@ -317,20 +309,6 @@ def _lasting(state: State, over: Hover | None = None) -> Overlay:
 def _stands(state: State) -> bool:
     """Return whether the motion is paused, and not merely dragged by a hand."""
     return state.clock.paused and not (state.grasp and state.grasp.ran)
-
-
-def _slider(state: State) -> SliderShown | None:
-    """Return the slider for what is shown; None where it has none."""
-    if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
-        return None
-    from linkanim.synthesis.quick_returns import member_of
-
-    member = member_of(state.scene)
-    if member is None:
-        return None
-    least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
-    label = f"transmission {least}, best {best}"
-    return SliderShown(label, "short coupler", "long coupler", FAMILY, round(member.place * FAMILY))
 
 
 def _chip(state: State) -> Fading | None:

@@ -425,7 +425,8 @@ class Mode:
     `gives_way` closes where another opens; where it `leads`, a hand on a joint drags the input; Esc
     closes one that `covers`. One that
     `has_head` has words above the linkage. One may have tools at the
-    edge, and a `pointer` of its own.
+    edge, and a `pointer` of its own. Where one `sees_through`, as the help and the steps of a construction,
+    keys and mouse are for what lies below it.
     """
 
     keys: ClassVar[ModeKeys]
@@ -441,6 +442,13 @@ class Mode:
     is_sheet: ClassVar[bool] = False
     edits_dimensions: ClassVar[bool] = False
     pointer: ClassVar[str] = ""
+    sees_through: ClassVar[bool] = False
+    is_help: ClassVar[bool] = False
+
+    def steps_of(self, scene: Scene) -> int:
+        """Return how many steps of a scene's construction it draws."""
+        del scene
+        return 0
 
     def typing(self, state: State) -> bool:
         """Return whether something has been begun by typing; in a line or a dialog all print is typed."""
@@ -843,8 +851,8 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab goes through, by their catalogue names or as scenes, and `place` is
-    that of the present one. `sheet` is the sheet, which may be closed. `construction` has the scene whose
-    construction is drawn, and how many steps of it. `kept` has the edited scenes of other places.
+    that of the present one. `sheet` is the sheet, which may be closed. `kept` has the edited scenes of other
+    places.
 
     `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
     `shot` that of a screenshot, each as long as it can be seen. `departures` are the states that were
@@ -877,13 +885,11 @@ class State:
     frame: int = 0
     modes: tuple[Mode, ...] = ()
     look: Look = field(default_factory=Look)
-    help: bool = False
     editing: Editing = field(default_factory=Editing)
     held: Held | None = None
     grasp: Grasp | None = None
     kept: tuple[Edited, ...] = ()
     sheet: BuildSheet | None = None
-    construction: tuple[Scene, int] | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
     glide: Glide | Changeover | None = None
@@ -920,8 +926,18 @@ class State:
 
     @property
     def top(self) -> Mode | None:
-        """The mode that was opened last."""
-        return self.modes[-1] if self.modes else None
+        """The mode that was opened last, of those that nothing can be seen through."""
+        return next((one for one in reversed(self.modes) if not one.sees_through), None)
+
+    @property
+    def help(self) -> bool:
+        """Whether the help is open."""
+        return any(one.is_help for one in self.modes)
+
+    @property
+    def unhelped(self) -> State:
+        """The state without the help."""
+        return replace(self, modes=tuple(one for one in self.modes if not one.is_help))
 
     def of(self, kind: type[OneMode]) -> OneMode | None:
         """Return the open mode of a kind."""
@@ -960,8 +976,8 @@ class State:
     @property
     def constructed(self) -> int:
         """How many steps of the present scene's construction are drawn."""
-        scene, steps = self.construction or (None, 0)
-        return steps if scene is self.scene and not (self.sketch or self.building or self.game) else 0
+        steps = sum(one.steps_of(self.scene) for one in self.modes)
+        return 0 if not steps or self.sketch or self.building or self.game else steps
 
     @property
     def sketch(self) -> Sketch | None:

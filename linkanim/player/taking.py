@@ -112,7 +112,7 @@ def toggle(state: State, _: None) -> State:
     """Open the dialog, or close it."""
     if state.recording:
         return with_toast(state, RUNS)
-    bare = replace(state.unlisted, help=False)
+    bare = state.unlisted.unhelped
     return bare.without(TakeDialog) if state.of(TakeDialog) else bare.with_mode(TakeDialog(row=_START))
 
 

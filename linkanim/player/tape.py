@@ -82,14 +82,16 @@ def starting(state: State) -> State:
     """Return the state from which a tape starts: at frame 0, at the same phase, without effects."""
     state = leave(state) if state.game else state
     clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
-    kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "help", "kept", "games")}
+    kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "kept", "games")}
     if state.building:
         # when the tape opens the sheet again, this is the look to come back to
         before = state.building.look
         kept["look"] = replace(state.look, unit=before.unit, chart=before.chart)
     if sketch:
-        return State(sketch.before, clock.at_rate(0, sketch.clock.rate), editing=sketch.editing, **kept)
-    modes = tuple(one for one in state.modes if one.edits_dimensions)
+        clock, editing = clock.at_rate(0, sketch.clock.rate), sketch.editing
+        modes = tuple(one for one in state.modes if one.is_help)
+        return State(sketch.before, clock, editing=editing, modes=modes, **kept)
+    modes = tuple(one for one in state.modes if one.edits_dimensions or one.is_help)
     return State(state.scene, clock, editing=state.editing, modes=modes, **kept)
 
 

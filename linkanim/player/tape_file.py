@@ -24,7 +24,8 @@ from linkanim.player.actions import is_taped
 from linkanim.player.building import restored_sheet
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.edits import Dimensions
-from linkanim.player.state import Edited, Editing, Game, State
+from linkanim.player.helping import Help
+from linkanim.player.state import Edited, Editing, Game, Mode, State
 from linkanim.player.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.form import Key
@@ -113,8 +114,10 @@ def _start(top: Section) -> State:
     shelf = _SHELF.read(top, "shelf") or (scene,)
     clock = Clock(scene.linkage.drive.speed, **_read(_CLOCK, start))
     edited = start.table("editing")
-    modes = (Dimensions(),) if "open" in edited and edited.flag("open") else ()
-    return State(scene, clock, shelf, modes=modes, **_read(_state(len(shelf)), start))
+    modes: tuple[Mode, ...] = (Dimensions(),) if "open" in edited and edited.flag("open") else ()
+    known = _read(_state(len(shelf)), start)
+    modes += (Help(),) * known.pop("help", False)
+    return State(scene, clock, shelf, modes=modes, **known)
 
 
 def _read(entries: Mapping[str, TapeValue], part: Section) -> dict[str, Any]:

@@ -282,3 +282,13 @@ def test_the_first_action_in_a_kiosk_only_brings_back_what_was_left(name: str) -
     assert still(replace(back, touched=state.touched, clock=state.clock)) == still(state)
     assert back.clock.speed == state.clock.speed
     assert run(back, 60).game is None
+
+
+def test_the_help_and_a_construction_are_modes_through_which_keys_reach_what_is_below() -> None:
+    state = after(begin(load("crank-rocker")), Action("construct", 2), "help", "edit")
+    assert [type(mode).__name__ for mode in state.modes] == ["Construction", "Help", "Dimensions"]
+    assert (state.constructed, state.help, state.mode) == (2, True, "edit")
+    for left in (["Construction", "Dimensions"], ["Construction"], []):
+        state = after(state, "back")
+        assert [type(mode).__name__ for mode in state.modes] == left
+    assert state.mode == "play"
