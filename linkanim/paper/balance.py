@@ -13,8 +13,8 @@ from linkanim.errors import BadInput
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.mechanics.balance import Shaken, balanced, counterweights, shaken
-from linkanim.paper.illustration import DrawnPage
-from linkanim.picture.chart import Plot, axes, curve_layer, line_layer, plot_area, x_title
+from linkanim.paper.illustration import DrawnPage, Stroke, legend
+from linkanim.picture.chart import Plot, axes, curve_layer, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.quantities import linear, range_around
 from linkanim.picture.view import Rect
@@ -88,24 +88,16 @@ class BalanceChart(DrawnPage):
         low, high = range_around(np.concatenate(values), 0.08)
         y = linear(min(low, 0.0), max(high, 0.0), most=6)
         area = plot_area(rect, y, pen, foot=foot, left=4.5 * pen.small)
-        plot = Plot(area, linear(0.0, math.degrees(self.scene.period), most=9), y)
+        plot = Plot(area, linear(0.0, math.degrees(self.scene.period), most=13, unit="°"), y)
         yield from axes(plot, pen)
         yield Caption(title, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
-        for curve, colour, dashes in zip(values, (theme.force, theme.velocity), ((), _DASHES), strict=True):
+        strokes = (
+            Stroke("without counterweights", theme.force),
+            Stroke("with them", theme.velocity, dashes=_DASHES),
+        )
+        for curve, one in zip(values, strokes, strict=True):
             rows = np.append(places, math.degrees(self.scene.period)), np.append(curve, curve[0])
-            yield curve_layer(plot, *rows, colour, 1.4 * pen.line, dashes)
+            yield curve_layer(plot, *rows, one.colour, one.width * pen.line, one.dashes)
         if foot:
-            yield x_title(plot, "phase (°)", pen)
-            yield from self._legend(area.x, x_title(plot, "", pen).at[1])
-
-    def _legend(self, x: float, y: float) -> Iterator[Item]:
-        """Yield which curve is which, from a place on."""
-        pen, theme = self.pen, self.pen.theme
-        for words, colour, dashes in (
-            ("without counterweights", theme.force, ()),
-            ("with them", theme.velocity, _DASHES),
-        ):
-            begin = complex(x, y + 0.5 * pen.small)
-            yield line_layer([np.array([begin, begin + 2.6 * pen.small])], colour, 1.4 * pen.line, dashes)
-            yield Caption(words, (x + 3.1 * pen.small, y), pen.small, theme.ink)
-            x += 4.6 * pen.small + pen.type.width(words, pen.small)
+            yield x_title(plot, "phase", pen)
+            yield from legend(area.x, x_title(plot, "", pen).at[1], strokes, pen)

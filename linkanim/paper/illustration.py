@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 
+import numpy as np
 import pygame
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.picture.chart import Pen, pen_for
-from linkanim.picture.items import Group, Item, grouped
+from linkanim.picture.chart import Pen, line_layer, pen_for
+from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
 from linkanim.picture.purpose import USUAL_SIZE
@@ -71,6 +72,25 @@ class DrawnPage:
     def surface(self) -> pygame.Surface:
         """Return the page drawn."""
         return page_surface(self.size, self.background, self.groups(), self.pen.type)
+
+
+class Stroke(NamedTuple):
+    """How a curve is drawn, and what it shows; widths and dashes in the pen's lines and in pixels."""
+
+    words: str
+    colour: Colour
+    width: float = 1.4
+    dashes: tuple[float, ...] = ()
+
+
+def legend(x: float, y: float, strokes: Iterable[Stroke], pen: Pen) -> Iterator[Item]:
+    """Yield which curve is which in one row, from its upper left corner on."""
+    for one in strokes:
+        begin = complex(x, y + 0.5 * pen.small)
+        line = np.array([begin, begin + 2.6 * pen.small])
+        yield line_layer([line], one.colour, one.width * pen.line, one.dashes)
+        yield Caption(one.words, (x + 3.1 * pen.small, y), pen.small, pen.theme.ink)
+        x += 4.6 * pen.small + pen.type.width(one.words, pen.small)
 
 
 class Illustration(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
-from linkanim.paper.illustration import DrawnPage
+from linkanim.paper.illustration import DrawnPage, Stroke, legend
 from linkanim.picture.chart import Plot, axes, curve_layer, dot, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.quantities import linear
@@ -17,8 +17,8 @@ from linkanim.picture.view import Rect
 from linkanim.scenes.deviation import Off, Tolerance
 from linkanim.units import significant
 
-_NAMED = 4
-"""The number of lengths that are drawn alone: those that matter most."""
+_DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0))
+"""Of the lengths that are drawn alone, those that matter most."""
 
 
 @frozen
@@ -76,21 +76,17 @@ class ToleranceChart(DrawnPage):
         alone = self._scale * np.column_stack([off.alone, off.alone[:, 0]])
         y_axis = linear(0.0, 1.12 * float(bound.max()), most=7)
         area = plot_area(below, y_axis, pen, foot=True)
-        plot = Plot(area, linear(0.0, float(phases[-1]), most=9), y_axis)
+        plot = Plot(area, linear(0.0, float(phases[-1]), most=13, unit="°"), y_axis)
         yield from axes(plot, pen)
-        legend = (
-            f"in {self.unit}; bold: all lengths together; dots: 95 in 100, and the most of 10,000 linkages"
-        )
-        yield Caption(legend, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
-        yield x_title(plot, "phase in deg", pen)
-        for n in np.argsort(-off.by)[:_NAMED]:
-            yield curve_layer(plot, phases, alone[n], theme.acceleration, 0.8 * pen.line)
-            at = complex(plot.place(phases[alone[n].argmax()], float(alone[n].max())))
-            words = self.shown.lengths[n]
-            half = 0.5 * pen.type.width(words, pen.small)
-            middle = min(max(at.real, area.x + half), area.right - half)
-            yield Caption(words, (middle, at.imag - 1.5 * pen.small), pen.small, theme.ink, "centre")
+        dots = f"in {self.unit}; dots: 95 in 100 linkages stay below the lower, all of 10,000 below the upper"
+        yield Caption(dots, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
+        yield x_title(plot, "phase", pen)
+        strokes = [Stroke("all lengths", theme.velocity, 1.6)]
+        for n, dashes in zip(np.argsort(-off.by), _DASHES, strict=False):
+            strokes.append(Stroke(self.shown.lengths[n], theme.acceleration, 1.0, dashes))
+            yield curve_layer(plot, phases, alone[n], theme.acceleration, pen.line, dashes)
         yield curve_layer(plot, phases, bound, theme.velocity, 1.6 * pen.line)
+        yield from legend(area.x, x_title(plot, "", pen).at[1], strokes, pen)
         where = math.degrees(off.worst_phase or 0.0)
         drawn = [complex(plot.place(where, self._scale * one)) for one in (off.likely, off.greatest)]
         yield from dot(theme.ink, pen).at([one for one in drawn if math.isfinite(one.imag)])
