@@ -153,6 +153,7 @@ def _constraints(draft: Draft, places: _Places, size: float) -> Iterator[tuple[_
         if bar := draft.bar(first, second):
             share = at * size / _length(draft, draft.of("bars")[bar]["length"])
         off = places[name] - places[first] - share * (places[second] - places[first])
+        share = (places[name] - places[first]) / ((places[second] - places[first]) or 1.0)
         row = {name: 1 + 0j, first: (share - 1).conjugate(), second: -share.conjugate()}
         yield row, off.real
         yield {joint: 1j * part for joint, part in row.items()}, off.imag
