@@ -107,7 +107,12 @@ def arrays(layout: ResultPlaces, results: Array, shape: tuple[int, ...], kind: s
     places, vectors = layout.places[kind], layout.vectors
     if kind not in VECTORS:
         return {name: results[2 * vectors + place].reshape(shape) for name, place in places.items()}
-    pairs = results[: 2 * vectors].reshape(vectors, 2, -1).transpose(0, 2, 1).reshape(vectors, *shape, 2)
+    pairs = (
+        results[: 2 * vectors]
+        .reshape(vectors, 2, results.shape[1])
+        .transpose(0, 2, 1)
+        .reshape(vectors, *shape, 2)
+    )
     still = (*[0] * len(shape), 8)
     return {
         name: pairs[place] if isinstance(place, int) else np.ndarray((*shape, 2), np.float64, place, 0, still)
@@ -368,6 +373,7 @@ class Motion(Derived[Array, Array]):
 
     Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
     limit, per unit of input speed) are infinite. What has more derivatives than were asked for is empty.
+    What joints do is solved at once, all else when it is first read.
     """
 
     asked: Asked
@@ -399,11 +405,22 @@ class Motion(Derived[Array, Array]):
         """Return the quantities of a kind by name, nothing of one that was not asked for."""
         if name not in DERIVATIVE_OF:
             raise self._missing("a motion", name)
-        if name not in self._layout.places:
+        if name in POINTS:
+            layout, results = self._layout, self._results
+        elif self.asked.joints is None and DERIVATIVE_OF[name] <= self.asked.derivatives:
+            layout, results = self._rest
+        else:
             return NOTHING
-        found = {name: arrays(self._layout, self._results, self.asked.shape, name)}
+        if name not in layout.places:
+            return NOTHING
+        found = {name: arrays(layout, results, self.asked.shape, name)}
         vars(self).update(found if self.asked.joints is not None else self.mechanism.placed(found))
         return vars(self)[name]
+
+    @cached_property
+    def _rest(self) -> tuple[ResultPlaces, Array]:
+        """What bodies, centres of mass and sliders do, solved when it is first read."""
+        return self.mechanism.solved(self.asked, points=False)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
@@ -661,7 +678,9 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[tuple[Variant, int, tuple[str, ...] | None], tuple[Batch, ResultPlaces]]:
+    def _programs(
+        self,
+    ) -> dict[tuple[Variant, int, tuple[str, ...] | None, bool], tuple[Batch, ResultPlaces]]:
         return {}
 
     def pose(
@@ -774,9 +793,11 @@ class Mechanism:
                 raise ValueError(f"out= is an array of floats that can be written, in C's order: {wanted}")
         return Motion(self, asked, out)
 
-    def solved(self, asked: Asked, out: Array | None = None) -> tuple[ResultPlaces, Array]:
-        """Return what is asked for in rows, and where it lies there."""
-        program, layout = self.program(asked.variant, asked.derivatives, asked.joints)
+    def solved(
+        self, asked: Asked, out: Array | None = None, *, points: bool = True
+    ) -> tuple[ResultPlaces, Array]:
+        """Return what is asked for of joints, or of all else, in rows, and where it lies there."""
+        program, layout = self.program(asked.variant, asked.derivatives, asked.joints, points=points)
         path = self.assembly.path
         rates = asked.rates if asked.variant.accelerates else asked.rates[:1]
         distances, back = asked.distances, asked.back
@@ -800,20 +821,26 @@ class Mechanism:
         return layout, results
 
     def program(
-        self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None = None
+        self,
+        variant: Variant,
+        derivatives: int,
+        joints: tuple[str, ...] | None = None,
+        *,
+        points: bool = True,
     ) -> tuple[Batch, ResultPlaces]:
         """Return the program over arrays of up to so many derivatives, and where its results lie.
 
-        Of `joints`, if any are named, and of nothing else; pins then have rows, too.
+        It is that of joints (and of the input), or of all else. Where `joints` are named it has those alone,
+        pins among them.
         """
-        key = variant, derivatives, joints
+        key = variant, derivatives, joints, points
         found = self._programs.get(key)
         if found is None:
             found = self._programs[key] = self._compiled(*key)
         return found
 
     def _compiled(
-        self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None
+        self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None, points: bool
     ) -> tuple[Batch, ResultPlaces]:
         names, rows = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
@@ -823,7 +850,8 @@ class Mechanism:
         asked = {
             kind: values
             for kind, values in rows.items()
-            if (swings if kind in COORDINATE else ORDER[kind] <= derivatives)
+            if (kind in POINTS or kind in COORDINATE) is points
+            and (swings if kind in COORDINATE else ORDER[kind] <= derivatives)
         }
         if joints is not None:
             kinds, pins = POINTS[: derivatives + 1], {}

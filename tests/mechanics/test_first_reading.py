@@ -10,6 +10,7 @@ import pytest
 
 from linkanim.mechanics.measures import DERIVATIVE_OF
 from linkanim.mechanics.motion import COORDINATE
+from linkanim.mechanics.program import Batch
 from linkanim.scenes import load
 
 KINDS = tuple(DERIVATIVE_OF)
@@ -32,6 +33,25 @@ def test_what_else_is_asked_for_changes_no_bit(scene: str, by: str, derivatives:
             assert getattr(motion, kind)[name].tobytes() == value.tobytes()
     for name in ("phase", *COORDINATE):
         assert np.asarray(getattr(motion, name)).tobytes() == np.asarray(getattr(whole, name)).tobytes()
+
+
+def test_joints_are_solved_at_once_and_all_else_when_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    runs: list[int] = []
+    run = Batch.__call__
+
+    def counted(self: Batch, *given: Any, **out: Any) -> Any:
+        runs.append(len(self.outputs))
+        return run(self, *given, **out)
+
+    monkeypatch.setattr(Batch, "__call__", counted)
+    motion = load("press").solve(phase=PHASES)
+    assert motion.position
+    assert motion.velocity
+    assert motion.acceleration
+    assert len(runs) == 1
+    for kind in KINDS:
+        assert getattr(motion, kind) is getattr(motion, kind)
+    assert len(runs) == 2
 
 
 def test_derivatives_that_were_not_asked_for_are_not_there() -> None:
