@@ -260,12 +260,16 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
 
 
 def group_name(group: LinkGroup) -> str:
-    """Name a linkage whose links are solved together by how many there are, and what they have."""
+    """Name a linkage whose links are solved together by how many there are, and what they have.
+
+    A pin in a slot stands for a block that turns about it, which is a link.
+    """
     sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
     geared, driven = (any(gear.motor == motor for gear in group.gears) for motor in (False, True))
     has = zip(("slider", "slot", "gears", "further motors"), (*sliding, geared, driven), strict=True)
     parts = " and ".join(word for word, there in has if there)
-    return f"{bars_named(len(group.members))} linkage{f' with {parts}' if parts else ''}"
+    count = len(group.members) + sum(slide.turns for slide in group.slides)
+    return f"{bars_named(count)} linkage{f' with {parts}' if parts else ''}"
 
 
 def bars_named(count: int) -> str:
@@ -591,7 +595,7 @@ class Info:
         """How many links, the ground among them, and joints there are, and the mobility by Grübler.
 
         A crank or a driven slider counts as one link and one joint, a dyad or a driving cylinder as two links
-        and three joints.
+        and three joints; a pin in a slot is a link, the block, that turns and slides.
         """
         linkage = self.mechanism.linkage
         inputs = len(tuple(linkage.cranks)) + isinstance(linkage.driven.joint, DrivenSlider)
@@ -599,11 +603,11 @@ class Info:
         links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
         meshes = sum(bool(crank.gear and not crank.gear.motor) for crank in linkage.cranks)
         if group := group_of(linkage):
-            links, pins = len(group.members), {point for one in group.members for point in one.points}
-            joints = sum(len(group.at_point(point)) - 1 for point in pins) + len(group.slides)
             slots = sum(slide.turns for slide in group.slides)
+            pins = {point for one in group.members for point in one.points}
+            links = len(group.members) + slots
+            joints = sum(len(group.at_point(point)) - 1 for point in pins) + len(group.slides) + slots
             meshes = sum(not gear.motor for gear in group.gears)
-            return Counts(links, joints, 3 * (links - 1) - 2 * joints + slots - meshes)
         return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
 
     @cached_property
@@ -812,6 +816,7 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     turning = (info.link_names[name] for name in info.turning_links)
     yield "class", info.class_name
     yield "links, joints", f"{links}, {joints}; mobility {mobility}"
+    yield "groups", _groups(info.mechanism.linkage)
     yield "solved together", _together(info)
     yield "Grashof", info.grashof
     yield "input", info.input_words
@@ -851,6 +856,13 @@ def _worst(info: Info, found: Transmission) -> str:
         where = "0°" if info.full_turn and told == "360" else f"{typeset(told)}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
     return f"μ ≥ {least}, {symbol} = {where}"
+
+
+def _groups(linkage: Linkage) -> str | None:
+    """Return the dyads in the order in which they are solved, by their kinds; None of fewer than two."""
+    dyads = [joint for joint in linkage.joints if joint.dyad and not joint.grouped]
+    kinds = (f"{joint.name} ({type(joint).__name__})" for joint in dyads)
+    return f"dyads {', '.join(kinds)}" if len(dyads) > 1 else None
 
 
 def _together(info: Info) -> str | None:

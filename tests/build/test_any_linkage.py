@@ -68,7 +68,7 @@ CASES = (
         "a pin on a guide and in a slot",
         "click 0 0; click 100 0; drag 0 0 50 0; drag 50 0 83 78; drag 83 78 100 0; "
         "drag guide 0 60 100 60; click slider 60 60; drag slot 60 60 91 39",
-        "five-bar linkage with slider and slot",
+        "six-bar linkage with slider and slot",
         "3, 4, 5",
     ),
     # two pins of one bar in the slot of a lever: the bar is the block, and does not turn there

@@ -14,6 +14,7 @@ from random_groups import FORMS, Bars, document
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.solver.input import Swing, Turn
+from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -130,6 +131,50 @@ def test_its_class_is_the_textbooks(document: Mapping[str, Any], words: str, lin
     assert (info.class_name, *info.counts) == (words, links, joints, 1)
     together = dict(info.lines)["solved together"].split(", ")
     assert together == [name for name in document["links"] if name not in ("ground", "FG", "ACD")]
+
+
+SCOTCH_YOKE: dict[str, Any] = {
+    "points": {"O": [0, 0], "A": [20, 10], "C": [20, -60], "D": [20, 60]},
+    "links": {"ground": ["O"], "crank": ["O", "A"], "yoke": ["C", "D"]},
+    "slides": {
+        "guide": {"link": "yoke", "on": "ground", "angle": "0 deg"},
+        "slot": {"point": "A", "on": "yoke", "angle": "90 deg"},
+    },
+    "drive": {"joint": "O"},
+}
+GUIDED: dict[str, Any] = {
+    "points": {"O": [0, 0], "Q": [100, 0], "A": [10, 30], "B": [60, 60], "C": [90, 45], "E": [100, 90]},
+    "links": {
+        "ground": ["O", "Q"],
+        "crank": ["O", "A"],
+        "rod": ["A", "B"],
+        "plate": ["B", "C", "E"],
+        "rocker": ["Q", "C"],
+    },
+    "slides": {"slot": {"point": "E", "on": "ground", "angle": "20 deg"}},
+    "drive": {"joint": "O"},
+}
+
+
+@pytest.mark.parametrize(
+    ("document", "words", "links", "joints"),
+    [
+        (SCOTCH_YOKE, "four-bar linkage with slider and slot", 4, 4),
+        (GUIDED, "six-bar linkage with slot", 6, 7),
+    ],
+    ids=["Scotch yoke", "guided coupler"],
+)
+def test_a_pin_in_a_slot_counts_as_its_block(
+    document: Mapping[str, Any], words: str, links: int, joints: int
+) -> None:
+    info = read(document).info
+    assert (info.class_name, *info.counts) == (words, links, joints, 1)
+
+
+def test_a_chain_has_its_groups_in_order() -> None:
+    assert dict(load("jansen").info.lines)["groups"] == "dyads B (RRR), C (RRR), E (RRR)"
+    assert dict(load("crank-shaper").info.lines)["groups"] == "dyads P (RPR), R (RRP)"
+    assert "groups" not in dict(load("crank-rocker").info.lines)
 
 
 TWO_PINS: dict[str, Any] = {
