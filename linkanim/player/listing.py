@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _LONGEST = 40
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
 _HINT = "↑ ↓ choose   type to filter   Enter charts   Ctrl+Enter adds   Esc closes"
-_READ, _NEAR = 15, 40
+_READ, _NEAR = 15, 80
 """How many frames a value stands, and how many rows near the chosen one have one."""
 
 

@@ -498,3 +498,20 @@ def test_a_list_of_very_many_entries_is_sifted_once_for_its_letters(press: State
     assert typed.of(Listing)
     assert the(typed, Listing).found(press.scene) == ("s49999",)
     assert after(typed, *["unsift"] * 8).of(Listing) == opened.of(Listing)
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (1080, 2160)])
+def test_every_row_of_k_in_sight_has_its_value(size: tuple[int, int]) -> None:
+    """In a tall window more rows are in sight than had values."""
+    with screen.opened(size):
+        player = Player(begin(load("press")))
+        player.type("k")
+        for _ in range(7):
+            player.tick(20)
+            told = overlay(player.state).quantities
+            assert told
+            found = (player.window.screen.row_at(60, y) for y in range(2, size[1], 4))
+            seen = {row for row in found if row is not None and row >= 0}
+            assert len(seen) > 10
+            assert all(" = " in told.rows[row][1] for row in seen)
+            player.press(pygame.K_PAGEDOWN)
