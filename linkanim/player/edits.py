@@ -24,6 +24,7 @@ from linkanim.player.state import (
     FLASH_FRAMES,
     Edited,
     Editing,
+    Glide,
     Grasp,
     Held,
     Mode,
@@ -123,7 +124,8 @@ def exchanged(state: State, scene: Scene) -> State:
 
 def followed(state: State, scene: Scene) -> State:
     """Let the shown scene glide to a changed one, or swing over to its other closure."""
-    way = None if state.reduced_motion else glide(state.shown, scene, state.frame, state.phase)
+    placed = state.glide.placed if isinstance(state.glide, Glide) else state.scene
+    way = None if state.reduced_motion else glide(state.shown, scene, state.frame, state.phase, placed)
     return replace(exchanged(state, scene), glide=way)
 
 

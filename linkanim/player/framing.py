@@ -15,7 +15,7 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.view import Box, on_the_way, view_on_the_way
 from linkanim.player.shown import lasting
-from linkanim.player.state import MOVE_FRAMES, Departure, Sketch, State
+from linkanim.player.state import MOVE_FRAMES, Departure, Glide, Sketch, State
 from linkanim.scenes.scene import Scene
 
 # What a state's picture is fitted to. Where that changes, the state that is left is kept for a while.
@@ -27,7 +27,7 @@ _PICTURES = 4
 class Framed(NamedTuple):
     """What the places in a picture depend on, besides its size.
 
-    While a hand changes a scene, all stands where it does for the scene `placed`.
+    While a scene changes, all stands where it does for the scene `placed`.
     """
 
     scene: Scene
@@ -72,7 +72,9 @@ def _kept(sketch: Sketch) -> Sketch | None:
 
 
 def _placed(state: State) -> Scene | None:
-    """Return the scene as it was when the hand took hold of something of it; None where it holds nothing."""
+    """Return the scene as it was when it began to change, in a hand or gliding; None where it does not."""
+    if isinstance(state.glide, Glide):
+        return state.glide.placed
     if state.held:
         return state.held.scene
     if state.sketch and state.sketch.held is not None:

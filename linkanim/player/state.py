@@ -228,11 +228,13 @@ class Departure(Change):
 class Glide(Change):
     """Dimensions that change: (key, from, to), and the scene shown meanwhile.
 
+    All stands where it does for the scene `placed`, from which this glide, or the one before it, began.
     `coming` is the scene that is worked out for the next frame, if any.
     """
 
     scene: Scene
     changes: tuple[tuple[Key, float, float], ...]
+    placed: Scene
     coming: Scene | None = None
 
 
@@ -247,7 +249,7 @@ _IN_PLACE = 1e-9
 """By how much a joint may move and stay in its place, in the scene's unit."""
 
 
-def glide(before: Scene, after: Scene, frame: int, phase: float) -> Glide | Changeover | None:
+def glide(before: Scene, after: Scene, frame: int, phase: float, placed: Scene) -> Glide | Changeover | None:
     """Return the glide from one scene to the other; a swing where only the closure differs.
 
     None where the linkage is another one, or stays in its place at the `phase`.
@@ -260,7 +262,7 @@ def glide(before: Scene, after: Scene, frame: int, phase: float) -> Glide | Chan
         if item.unit == old[item.key].unit and item.value != old[item.key].value
     )
     if changes:
-        return Glide(before, changes, since=frame)
+        return Glide(before, changes, placed, since=frame)
     places, others = before.pose(phase, 0).position, after.pose(phase, 0).position
     if places.keys() != others.keys():
         return None

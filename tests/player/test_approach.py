@@ -13,6 +13,8 @@ import pytest
 from playing import Player
 
 from linkanim.picture.items import Group
+from linkanim.picture.layout import Docked
+from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.view import View, eased, view_on_the_way
 from linkanim.player import screen as display
@@ -138,6 +140,7 @@ def extent(groups: list[Group]) -> tuple[complex, complex]:
 
 
 CHART = Action("chart", 1)
+LIST = Docked(listed=2, bar=True)
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (640, 360), (360, 640)], ids=str)
@@ -280,3 +283,25 @@ def test_a_blank_sheet_keeps_its_picture_also_with_instant_centres() -> None:
     assert blank.sketch.is_blank
     once = framing.fitting(blank, (640, 360))
     assert framing.fitting(blank, (640, 360)) is once
+
+
+def test_while_a_length_changes_all_stands_where_it_did_and_is_placed_anew_once_that_is_over() -> None:
+    """However often the key repeats: no frame of it weighs where the names would be best."""
+    framing, size = Framing(window=True), (640, 360)
+    state = advance(begin(load("crank-rocker"), look=Look(names=2)), [Action("edit")])
+    for _ in range(MOVE_FRAMES):
+        state = advance(state)
+    before = framing.fitting(state, size)
+    for _ in range(3):
+        state = advance(advance(state, [Action("nudge", 5)]))
+        shown = framing.at(state, size)
+        assert shown.view == before.view
+        assert [one.anchor for one in shown.names.labels] == [one.anchor for one in before.names.labels]
+    for _ in range(2 * MOVE_FRAMES + 1):
+        state = advance(state)
+    assert (state.glide, state.departures) == (None, ())
+    assert (
+        framing.at(state, size).view
+        == Picture(state.scene, size, state.look, docked=LIST).view
+        != before.view
+    )
