@@ -17,6 +17,7 @@ from linkanim.build.freedom import mobility
 from linkanim.build.gestures import drives
 from linkanim.build.scene_form import made
 from linkanim.build.storing import restored, stored
+from linkanim.errors import BadInput
 from linkanim.player.tape_file import read, write
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
@@ -186,6 +187,16 @@ def test_the_crank_stays_where_it_is_drawn_or_where_its_start_is_typed() -> None
     arm = after.draft.places["A"]
     assert math.degrees(math.atan2(arm[1], arm[0])) == pytest.approx(100, abs=1e-9)
     assert after.made.scene
+
+
+def test_gears_between_moving_links_are_not_drawn_on_the_sheet() -> None:
+    links = 'ground = ["O", "Q"]\ncrank = ["O", "A"]\na = ["A", "B"]\nb = ["B", "C"]\nc = ["Q", "C"]'
+    places = "O = [0, 0]\nQ = [100, 0]\nA = [20, 20]\nB = [60, 60]\nC = [110, 40]"
+    gear = '[gears.g]\nlinks = ["a", "b"]\ncarrier = "crank"\nratio = -2\n[drive]\njoint = "O"'
+    written = f"[points]\n{places}\n[links]\n{links}\n{gear}"
+    scene = scene_from(parse(written, "geared"), name="geared", where="geared")
+    with pytest.raises(BadInput, match="geared: gears between moving links are not drawn on a sheet"):
+        building_of(scene)
 
 
 REFUSED = (
