@@ -48,6 +48,8 @@ _ARMS = np.geomspace(0.5, 4.0, 14)
 _KEPT, _MORE = 3, 12
 """The outputs of an arc, and of each answer, that are looked at closely."""
 _LOOKED_AT = 361
+_WEIGHED = 16
+"""How often the points of an arc are weighed anew."""
 _ROUNDS, _EXACT, _SEEN = 40, 1e-14, 1e-4
 """Steps towards a swing, how near they get (rad), and how near the solver's poses show it, as a share."""
 _DIGITS = 12
@@ -274,6 +276,25 @@ def _circles(points: Complex, wide: int) -> tuple[Complex, Real, Real]:
         return np.asarray((a + 1j * b) / 2), radius, np.sqrt(left) / (2 * radius)
 
 
+def _levelled(arc: _Arc, points: Complex) -> _Arc:
+    """Return an arc whose circle has its largest distance from points small, by Lawson's weights (1961)."""
+    weights, best = np.ones(len(points)), (math.inf, arc)
+    for _ in range(_WEIGHED):
+        root = np.sqrt(weights)[:, None]
+        sides = np.stack([2 * points.real, 2 * points.imag, np.ones(len(points))], axis=1)
+        a, b, _ = np.linalg.lstsq(root * sides, root[:, 0] * np.abs(points) ** 2)[0].tolist()
+        away = np.abs(points - complex(a, b))
+        radius = float(away.min() + away.max()) / 2
+        off = np.abs(away - radius)
+        best = min(
+            best,
+            (float(off.max()), arc._replace(centre=complex(a, b), radius=radius)),
+            key=lambda one: one[0],
+        )
+        weights = weights * off / off.mean()
+    return best[1]
+
+
 def _dyads(rest: float, swing: float | None, least_angle: float) -> Iterator[tuple[float, _Dyad]]:
     """Yield dyads on the best arcs, a few of each, with the cost of their figures, as some poses tell it."""
     turned = np.concatenate(
@@ -281,8 +302,7 @@ def _dyads(rest: float, swing: float | None, least_angle: float) -> Iterator[tup
     )
     for _, rough in sorted(_arcs(rest, least_angle), key=lambda pair: pair[0])[:_ARCS]:
         path = rough.path(turned)
-        away = np.abs(path[:_RESTING] - rough.centre)
-        arc = rough._replace(radius=float(away.min() + away.max()) / 2)
+        arc = _levelled(rough, path[:_RESTING])
         dyads = [*(_sliders(arc) if swing is None else _rockers(arc, path, swing))]
         if not dyads:
             continue
