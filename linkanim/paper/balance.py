@@ -13,7 +13,7 @@ from linkanim.errors import BadInput
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.mechanics.balance import Shaken, balanced, counterweights, shaken
-from linkanim.paper.illustration import DrawnPage, Stroke, legend
+from linkanim.paper.illustration import DrawnPage, LegendEntry, legend
 from linkanim.picture.chart import Plot, axes, curve_layer, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.quantities import linear, range_around
@@ -92,8 +92,8 @@ class BalanceChart(DrawnPage):
         yield from axes(plot, pen)
         yield Caption(title, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
         strokes = (
-            Stroke("without counterweights", theme.force),
-            Stroke("with them", theme.velocity, dashes=_DASHES),
+            LegendEntry("without counterweights", theme.force),
+            LegendEntry("with them", theme.velocity, dashes=_DASHES),
         )
         for curve, one in zip(values, strokes, strict=True):
             rows = np.append(places, math.degrees(self.scene.period)), np.append(curve, curve[0])

@@ -74,7 +74,7 @@ class DrawnPage:
         return page_surface(self.size, self.background, self.groups(), self.pen.type)
 
 
-class Stroke(NamedTuple):
+class LegendEntry(NamedTuple):
     """How a curve is drawn, and what it shows; widths and dashes in the pen's lines and in pixels."""
 
     words: str
@@ -83,7 +83,7 @@ class Stroke(NamedTuple):
     dashes: tuple[float, ...] = ()
 
 
-def legend(x: float, y: float, strokes: Iterable[Stroke], pen: Pen) -> Iterator[Item]:
+def legend(x: float, y: float, strokes: Iterable[LegendEntry], pen: Pen) -> Iterator[Item]:
     """Yield which curve is which in one row, from its upper left corner on."""
     for one in strokes:
         begin = complex(x, y + 0.5 * pen.small)

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
-from linkanim.paper.illustration import DrawnPage, Stroke, legend
+from linkanim.paper.illustration import DrawnPage, LegendEntry, legend
 from linkanim.picture.chart import Plot, axes, curve_layer, dot, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.quantities import linear
@@ -81,9 +81,9 @@ class ToleranceChart(DrawnPage):
         dots = f"in {self.unit}; dots: 95 in 100 linkages stay below the lower, all of 10,000 below the upper"
         yield Caption(dots, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
         yield x_title(plot, "phase", pen)
-        strokes = [Stroke("all lengths", theme.velocity, 1.6)]
+        strokes = [LegendEntry("all lengths", theme.velocity, 1.6)]
         for n, dashes in zip(np.argsort(-off.by), _DASHES, strict=False):
-            strokes.append(Stroke(self.shown.lengths[n], theme.acceleration, 1.0, dashes))
+            strokes.append(LegendEntry(self.shown.lengths[n], theme.acceleration, 1.0, dashes))
             yield curve_layer(plot, phases, alone[n], theme.acceleration, pen.line, dashes)
         yield curve_layer(plot, phases, bound, theme.velocity, 1.6 * pen.line)
         yield from legend(area.x, x_title(plot, "", pen).at[1], strokes, pen)
