@@ -877,8 +877,9 @@
     put("forces", ["force", "x, y (N)", "size (N)"], (pulls?.symbols || []).map((symbol, n) => {
       const step = 10 ** (Math.floor(Math.log10(pulls.grain[n] * 32000)) - 2), digits = Math.max(0, -Math.log10(step));
       const told = (x) => Number.isFinite(x) ? minus((Math.round(x / step) * step + 0).toFixed(digits).replace(/^-(0\.?0*)$/, "$1")) : "∞";
-      const force = () => pulled(pulls, n, state.phase);
-      return { name: symbolic(symbol), keys: [`f ${symbol}`], tells: [() => `(${force().map(told).join(", ")})`, () => told(size(force()))] };
+      const force = () => pulled(pulls, n, state.phase), slight = (f) => size(f) > 0 && size(f) < step / 2;
+      const parts = (f) => slight(f) ? "–" : `(${f.map(told).join(", ")})`, whole = (f) => slight(f) ? `< ${told(step)}` : told(size(f));
+      return { name: symbolic(symbol), keys: [`f ${symbol}`], tells: [() => parts(force()), () => whole(force())] };
     }));
   }
   const escaped = (text) => text.replace(/[&<]/g, (letter) => ({ "&": "&amp;", "<": "&lt;" })[letter]);

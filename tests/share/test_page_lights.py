@@ -167,3 +167,17 @@ def test_numbers_of_links_and_forces_are_those_of_the_solver(page: Page, tmp_pat
         x, y = (float(one) for one in force[1].strip("()").split(", "))
         assert (x, y) == pytest.approx(pose.reaction["A"]["3"], abs=0.6)
         assert float(force[2]) == pytest.approx(math.hypot(*pose.reaction["A"]["3"]), abs=0.6)
+
+
+def test_a_force_too_small_for_its_digits_is_not_told_as_none(page: Page, tmp_path: Path) -> None:
+    # a hundredth of a percent of the gas force at its greatest
+    scene = load("engine")
+    opened(page, "engine", tmp_path)
+    go_to(page, 4.9)
+    true = math.hypot(*scene.pose(4.9).reaction["A"]["rod"])
+    assert 0 < true < 50
+    rows = page.value(
+        "[...document.querySelectorAll('#forces tbody tr')]"
+        ".map(row => [...row.children].map(one => one.textContent))"
+    )
+    assert ["FA,3", "–", "< 100"] in rows
