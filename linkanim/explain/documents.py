@@ -154,7 +154,8 @@ svg .lit path { fill: #d9480f; fill-opacity: 1; } svg [data-i], math [data-y] { 
 math .blank { border-bottom: 1px solid #57606a; }
 ul.given { columns: 2; list-style: none; padding: 0 0 0 1rem; margin: .35rem 0; }
 ul.given li { break-inside: avoid; }
-figure.vectors { margin: .6rem 0; break-inside: avoid; } figure.vectors svg { max-width: 100%; height: auto; }
+figure.vectors { margin: .6rem 0; break-inside: avoid; overflow-x: auto; }
+figure.vectors svg { max-width: 100%; height: auto; }
 """
 
 

@@ -50,7 +50,7 @@ def forces(light: Picture, dark: Picture, speed: float, pairs: Pairs) -> Mover |
     alike = np.allclose(ways[0], ways[1], rtol=0.0, atol=_NEAR, equal_nan=True)
     starts = [one.place for one in pulls(scene.pose(0.0))]
     shown = {
-        "words": arrows.words,
+        "words": f"{arrows.words} as at rest" if scene.linkage.static else arrows.words,
         "unit": arrows.unit,
         "per": arrows.scale(speed),
         "line": arrows.gauge.line,

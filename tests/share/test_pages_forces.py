@@ -117,6 +117,7 @@ def test_a_page_at_rest_is_asked_for_as_a_chart_at_rest_is(tmp_path: Path, capsy
     target = tmp_path / "page.html"
     assert main(["share", "engine", "--static", "-o", str(target)]) == 0
     assert target.read_text(encoding="utf-8") == document(Shared(load("engine").without_inertia))
+    assert arrows_in(held(target.read_text(encoding="utf-8")))["words"] == "force as at rest"
     assert main(["share", "crank-rocker", "--static", "-o", str(target)]) == 2
     assert "states no mass" in capsys.readouterr().err
     assert main(["share", "--all", str(tmp_path / "site"), "--static"]) == 2

@@ -16,6 +16,7 @@ from linkanim.cli.progress import along
 from linkanim.errors import BadInput
 from linkanim.explain.documents import HTML, LIT, MARKDOWN, TEX, document
 from linkanim.explain.exercise import LEVELS, exercise
+from linkanim.explain.free import panels
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.intake import few
@@ -38,6 +39,8 @@ _MOST_LETTERS = 26
 """The most versions: they are called A to Z."""
 _NEAR = 0.05
 """The most that joints move where an angle is rounded to tenths of a degree, in longest bars."""
+_PANEL = 200
+"""The least width of a free body's panel on a page, in pixels."""
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
@@ -87,7 +90,9 @@ def _dimensioned(found: Solution) -> str:
 
 
 def _free(found: Solution) -> str:
-    drawn = embedded(free_bodies_svg(found), f"Free bodies of {found.title}")
+    # on a phone it is not so small that it cannot be read, and is moved sideways
+    least = f"min-width: {_PANEL * min(len(panels(found)), 3)}px"
+    drawn = embedded(free_bodies_svg(found), f"Free bodies of {found.title}", least)
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
