@@ -484,6 +484,7 @@ def group(name: str, seed: int) -> Linkage:
     return laden(scene_from(document, name="my", where="my.toml").linkage, seed)
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("static", [False, True], ids=["in motion", "static"])
 @pytest.mark.parametrize("name", GROUPS)
 def test_the_effort_of_links_that_are_solved_together_is_that_of_power(name: str, static: bool) -> None:
@@ -493,6 +494,7 @@ def test_the_effort_of_links_that_are_solved_together_is_that_of_power(name: str
     assert found == pytest.approx(power, abs=1e-12 * np.abs(power).max())
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("name", GROUPS)
 def test_all_that_acts_on_each_of_the_links_that_are_solved_together_is_its_inertia(name: str) -> None:
     scene = group(name, 7)
