@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import runpy
 import shutil
 import subprocess
@@ -17,13 +18,15 @@ from linkanim.cli.commands.examples import FOLDER
 
 EVERY = sorted(path.name for path in FOLDER.iterdir() if path.is_file())
 NUMBERED = [name for name in EVERY if name[0].isdigit()]
+START = math.atan2(1.94, -0.21)
+"""The crank's angle in the pose in which the butterfly's points are stated."""
 
 
 def test_each_has_its_number_and_each_is_listed_with_what_it_is(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["examples"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in lines[: len(NUMBERED)]] == NUMBERED
-    assert [name[:2] for name in NUMBERED] == [f"{n:02}" for n in range(1, 12)]
+    assert [name[:2] for name in NUMBERED] == [f"{n:02}" for n in range(1, 16)]
     assert all(len(line.split()) > 2 for line in lines[: len(EVERY)])
 
 
@@ -56,7 +59,7 @@ def test_what_was_changed_is_never_replaced(tmp_path: Path, capsys: pytest.Captu
     assert mine.read_text(encoding="utf-8") == "my own"
 
 
-@pytest.mark.parametrize("word", ["12", "cu", "06-optimize"])
+@pytest.mark.parametrize("word", ["16", "cu", "06-optimize"])
 def test_an_example_that_is_not_there_is_said(word: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["examples", word]) == 2
     assert "no example is called" in capsys.readouterr().err
@@ -64,7 +67,22 @@ def test_an_example_that_is_not_there_is_said(word: str, capsys: pytest.CaptureF
 
 def test_the_scenes_are_good(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", *(str(path) for path in FOLDER.glob("*.toml"))]) == 0
-    assert capsys.readouterr().out.count(": good: ") == 3
+    assert capsys.readouterr().out.count(": good: ") == 7
+
+
+# Positions of other programs' tests: PMKS Verification and PMKS-Web; the pen is back after two turns; both
+# shafts of the coupling turn alike, and the middle of its cross twice as fast, on a circle about theirs.
+def test_links_that_are_solved_together_move_as_is_known() -> None:
+    places = linkanim.load(str(FOLDER / "13-double-butterfly.toml")).solve(angle=math.pi / 2 + START).position
+    assert places["J"] == pytest.approx((3.277974954071667, 0.017062641156144212), rel=1e-14)
+    stephenson = linkanim.load(str(FOLDER / "12-stephenson.toml"))
+    assert stephenson.pose(0.0).position["E"] == pytest.approx((18, 35), rel=1e-14)
+    assert linkanim.load(str(FOLDER / "14-plotter.toml")).period == pytest.approx(4 * math.pi)
+    oldham = linkanim.load(str(FOLDER / "15-oldham.toml"))
+    for phase in (0.3, 2.0, 5.0):
+        pose = oldham.pose(phase)
+        assert pose.angular_velocity["output"] == pytest.approx(pose.angular_velocity["input"], rel=1e-13)
+        assert abs(complex(*pose.position["C"]) - 10) == pytest.approx(10, rel=1e-13)
 
 
 NEEDS = {"04-data-frame.py": "pandas", "06-optimise.py": "scipy"}
