@@ -32,9 +32,9 @@ def test_the_worst_frame_counts_without_words_and_against_64_samples_a_pixel(
     made: list[tuple[int, int]] = []
 
     class Painter:
-        def __init__(self, scene: Scene, size: tuple[int, int], look: Look, home: View | None = None) -> None:
+        def __init__(self, scene: Scene, size: tuple[int, int], look: Look, view: View | None = None) -> None:
             assert (scene.name, look.hud, look.vectors) == ("press", False, frozenset("va"))
-            assert home == (View(16.0, 24.0, 32.0) if made else None)
+            assert view == (View(16.0, 24.0, 32.0) if made else None)
             made.append(size)
             self.size, self.view = size, View(2.0, 3.0, 4.0)
 
