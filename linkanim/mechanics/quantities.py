@@ -290,9 +290,7 @@ def _quantities(
     for body in linkage.bodies:
         if body.com is not None:
             called_ = body.name, f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
-            # a crank's that lies on its pin has no path
-            rests = not any(body.com) and any(pin.name == body.joints[0] for pin in linkage.pins)
-            yield from _of_point(CENTRE, () if rests else CENTRE_PATH, called_, ("bodies", body.name, "com"))
+            yield from _of_point(CENTRE, CENTRE_PATH, called_, ("bodies", body.name, "com"))
     for strut in linkage.springs + linkage.dampers:
         words = linkage.strut_words(strut)
         index = words if strut.name in labels else strut.name

@@ -106,6 +106,8 @@ def test_poles_and_radii_go_on_where_a_link_rests(name: str) -> None:
     scene, step = load(name), 1e-4
     extent = scene.linkage.extent
     tokens = [token for token in scene.quantities if token.endswith(("pole", "curvature_radius"))]
+    # a centre of mass on its crank's pin stands still: it has no path, and so no radius
+    tokens = [token for token in tokens if not np.isnan(scene.quantities[token].read(scene.cycle(24))).all()]
     for phase in rests(scene):
         for token in tokens:
             # seen as 1/r, in which a straight path, or a pole that is infinitely far, is 0
