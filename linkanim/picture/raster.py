@@ -616,6 +616,12 @@ def pixel_view(surface: pygame.Surface) -> memoryview:
     return memoryview(surface.get_buffer())  # type: ignore[arg-type]
 
 
+def ground_clear(surface: pygame.Surface, colour: Colour) -> None:
+    """Give each pixel that shows nothing one colour; it has that of whatever was cached and drawn there."""
+    pixels, opacity = np.frombuffer(pixel_view(surface), np.uint32), np.uint32(surface.get_masks()[3])
+    pixels[pixels & opacity == 0] = words(surface, [colour])[0] & ~opacity
+
+
 def png_bytes(surface: pygame.Surface) -> bytes:
     """Return a surface as a PNG file's bytes."""
     file = BytesIO()

@@ -15,7 +15,16 @@ from linkanim.picture.board import Board
 from linkanim.picture.items import SHEET, Caption, Group, Target, flat
 from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
+from linkanim.picture.raster import (
+    Cover,
+    Shapes,
+    covers,
+    ground_clear,
+    in_turn,
+    is_clear,
+    keep_memory,
+    paints,
+)
 from linkanim.picture.text import Lettering, Type
 
 if TYPE_CHECKING:
@@ -82,6 +91,8 @@ class SurfacePrinter:
         self.targets = tuple(target for run in others for group in run for target in group.targets)
         if overlay != NOTHING_OVER:
             self.targets += self._panels_of(picture).draw(canvas, overlay)
+        if is_clear(canvas):
+            ground_clear(canvas, picture.theme.background)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 

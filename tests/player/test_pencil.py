@@ -408,7 +408,9 @@ def test_points_pins_and_pictures_are_under_the_pencil(player: Player) -> None:
     goal = complex(*screen.world(round(at[0] + 9), round(at[1] + 4)))
     player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
     held = sketch_of(player.state).held
-    player.drag(at, (at[0] + 9, at[1] + 4))
+    there = at[0] + 9, at[1] + 4
+    player.mouse(pygame.MOUSEMOTION, there, rel=(0, 0), buttons=(1, 0, 0))
+    player.mouse(pygame.MOUSEBUTTONUP, there, button=1)
     dragged = sketch_of(player.state).curve
     assert dragged is not None
     assert isinstance(held, int)
