@@ -17,7 +17,6 @@ from linkanim.__main__ import main
 sys.exit(main())
 """
 LARGE = ("draw", "press", "--size", "3840x2160", "--phase", "1 rad", "-o")
-LONG = ("solve", "press", "--sweep", "0:360:0.0008", "--csv")
 RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
 
 
@@ -33,7 +32,6 @@ RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
         pytest.param("RLIMIT_AS", 60_000_000, ("info", "kite"), "not enough memory", id="numpy"),
         pytest.param("RLIMIT_AS", 85_000_000, ("info", "kite"), "memory", id="threads"),
         pytest.param("RLIMIT_AS", 205_000_000, (*LARGE, "a.png"), "not enough memory", id="surface"),
-        pytest.param("RLIMIT_AS", 180_000_000, (*LONG, "a.csv"), "not enough memory", id="csv"),
     ],
 )
 @pytest.mark.slow
