@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 
@@ -38,7 +39,7 @@ def page_surface(
 
 
 @frozen(kw_only=True)
-class DrawnPage:
+class DrawnPage(ABC):
     """A page of items, `size` pixels large, its words `type_scale` times so; without `ground` it is open."""
 
     size: tuple[int, int] = USUAL_SIZE
@@ -61,9 +62,9 @@ class DrawnPage:
         """What is seen in it beside its title; nothing, where a kind of page does not say."""
         return ""
 
+    @abstractmethod
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
-        raise NotImplementedError
 
     def groups(self) -> tuple[Group, ...]:
         """Return everything on the page as one group, words over shapes."""

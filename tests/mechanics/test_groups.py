@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
+from published import STEPHENSON
 from random_groups import FORMS, Bars, document
 
 from linkanim.errors import AssemblyError
@@ -19,23 +21,7 @@ from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 STEPHENSON_III: dict[str, Any] = {
-    "points": {
-        "A": [7, 4],
-        "B": [5, 16],
-        "C": [25, 25],
-        "D": [23, 10],
-        "E": [18, 35],
-        "F": [43, 32],
-        "G": [45, 17],
-    },
-    "links": {
-        "ground": ["A", "D", "G"],
-        "AB": ["A", "B"],
-        "BCE": ["B", "C", "E"],
-        "CD": ["C", "D"],
-        "EF": ["E", "F"],
-        "FG": ["F", "G"],
-    },
+    **tomllib.loads(STEPHENSON),
     "drive": {"joint": "G", "speed": "1 rad/s"},
 }
 OTHER_CLOSURES = [

@@ -8,6 +8,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import CTRL, Player, menu_in, the
+from published import STEPHENSON
 
 from linkanim.picture.shelf import grid
 from linkanim.player import screen
@@ -20,27 +21,6 @@ from linkanim.scenes.closures import closures
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
-
-TRIAD = """
-[points]
-A = [7, 4]
-B = [5, 16]
-C = [25, 25]
-D = [23, 10]
-E = [18, 35]
-F = [43, 32]
-G = [45, 17]
-[links]
-ground = ["A", "D", "G"]
-AB = ["A", "B"]
-BCE = ["B", "C", "E"]
-CD = ["C", "D"]
-EF = ["E", "F"]
-FG = ["F", "G"]
-[drive]
-joint = "G"
-"""
-"""A Stephenson III driven at its last link, of which four closures are published in this pose."""
 
 
 @pytest.fixture
@@ -116,7 +96,7 @@ def test_menu_and_find_list_it(player: Player) -> None:
 
 
 def test_links_that_are_solved_together_have_theirs(player: Player, here: Path) -> None:
-    (here / "triad.toml").write_text(TRIAD, encoding="utf-8")
+    (here / "triad.toml").write_text(STEPHENSON, encoding="utf-8")
     triad = Player(begin(load(here / "triad.toml")))
     found = opened(triad)
     assert len(found.closures) == 4

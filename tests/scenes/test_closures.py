@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
-import tomli_w
 from PIL import Image
+from published import STEPHENSON
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
@@ -51,18 +51,6 @@ def test_closures_have_the_same_lengths(name: str) -> None:
             assert math.dist(closure.pose[joint], closure.pose[end]) == pytest.approx(length, rel=1e-12)
 
 
-STEPHENSON: Mapping[str, Any] = {
-    "points": {
-        **{"A": [7, 4], "B": [5, 16], "C": [25, 25], "D": [23, 10], "E": [18, 35], "F": [43, 32]},
-        "G": [45, 17],
-    },
-    "links": {
-        **{"ground": ["A", "D", "G"], "AB": ["A", "B"], "BCE": ["B", "C", "E"], "CD": ["C", "D"]},
-        **{"EF": ["E", "F"], "FG": ["F", "G"]},
-    },
-    "drive": {"joint": "G", "speed": "10 rpm"},
-}
-"""A Stephenson III driven at its last link (PMKS_Verification v1, stephenson_iii_example_2)."""
 OF_STEPHENSON: list[dict[str, tuple[float, float]]] = [
     {"B": (5, 16), "C": (25, 25), "E": (18, 35)},
     {
@@ -80,7 +68,7 @@ OF_STEPHENSON: list[dict[str, tuple[float, float]]] = [
 
 @pytest.mark.slow
 def test_links_that_are_solved_together_have_the_closures_that_are_published() -> None:
-    found = closures(scene_from(STEPHENSON, name="stephenson", where="stephenson"))
+    found = closures(scene_from(tomllib.loads(STEPHENSON), name="stephenson", where="stephenson"))
     assert len(found) == 4
     for wanted in OF_STEPHENSON:
         off = [max(math.dist(one.pose[name], place) for name, place in wanted.items()) for one in found]
@@ -125,7 +113,7 @@ def test_the_command_lists_writes_and_draws_them(
 @pytest.mark.slow
 def test_a_file_of_points_is_put_together_in_other_poses(tmp_path: Path) -> None:
     path = tmp_path / "s.toml"
-    path.write_text(tomli_w.dumps(STEPHENSON), encoding="utf-8")
+    path.write_text(STEPHENSON, encoding="utf-8")
     found = closures(load(str(path)))
     assert all(one.scene.document["points"]["G"] == [45, 17] for one in found)
     assert len({tuple(one.scene.document["points"]["B"]) for one in found}) == len(found)

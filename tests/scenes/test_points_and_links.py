@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from published import STEPHENSON
 
 import linkanim
 from linkanim.errors import BadInput
@@ -262,25 +263,6 @@ TRIAD = (
     .replace("P = [33.2, 62.6]", "P = [33.2, 62.6]\nO6 = [0, 100]")
     .replace('ground = ["O2", "O4"]', 'ground = ["O2", "O4", "O6"]')
 )
-STEPHENSON = """
-[points]
-A = [7, 4]
-B = [5, 16]
-C = [25, 25]
-D = [23, 10]
-E = [18, 35]
-F = [43, 32]
-G = [45, 17]
-[links]
-ground = ["A", "D", "G"]
-AB = ["A", "B"]
-BCE = ["B", "C", "E"]
-CD = ["C", "D"]
-EF = ["E", "F"]
-FG = ["F", "G"]
-[drive]
-joint = "G"
-"""
 # the lines of A-B, C-D and E-F meet in one point
 AT_A_LIMIT = STEPHENSON.partition("[links]")[2]
 AT_A_LIMIT = f"""
