@@ -25,7 +25,14 @@ from linkanim.mechanics.balance import surplus
 from linkanim.mechanics.forces import Demand, demand, usual_effort
 from linkanim.mechanics.groups import LinkGroup, group_of
 from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
-from linkanim.mechanics.measures import near, output_body, output_slider, pivots_of, said, transmission_angle
+from linkanim.mechanics.measures import (
+    as_output,
+    near,
+    output_body,
+    output_slider,
+    pivots_of,
+    transmission_angle,
+)
 from linkanim.mechanics.motion import Mechanism, Motion
 from linkanim.mechanics.program import Array, batch
 from linkanim.mechanics.quantities import input_symbol, phrase
@@ -107,9 +114,9 @@ def _where_least(mechanism: Mechanism, dyad: str) -> float:
 
     places = mechanism.sampled
     worst = float(places[np.nanargmax(np.concatenate([*map(negative, in_blocks(places))]))])
-    found = highest(negative, worst, math.tau / mechanism.assembly.samples)
-    end = math.pi * round(found / math.pi)  # where bars in one line, or an end of the input, often are
-    return (end if abs(found - end) < FOUND else found) % (math.tau * mechanism.periods)
+    phase = highest(negative, worst, math.tau / mechanism.assembly.samples)
+    end = math.pi * round(phase / math.pi)  # where bars in one line, or an end of the input, often are
+    return (end if abs(phase - end) < FOUND else phase) % (math.tau * mechanism.periods)
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -127,10 +134,10 @@ def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     """Yield U and W of each dyad on moving points where its separation, its rate or U - W changes sign."""
     assembly = mechanism.assembly
-    found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
-    if not found:
+    by_name = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
+    if not by_name:
         return
-    closings, count = found.values(), len(found)
+    closings, count = by_name.values(), len(by_name)
     parts = [(one.separation.value, one.separation.rate, one.half_difference) for one in closings]
     turning = batch({"x": True}, [value for values in parts for value in values])
     factors = batch({"x": True}, [closing.u for closing in closings] + [closing.w for closing in closings])
@@ -148,7 +155,7 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
         whose = np.concatenate([np.arange(count), rows // len(parts[0])])
         where = np.concatenate([np.repeat(places[:1], count), extremes])
         u, w = (own_rows(factors, whose + half, where) for half in (0, count))
-    for row, name in enumerate(found):
+    for row, name in enumerate(by_name):
         yield name, np.column_stack([u, w])[whose == row]
 
 
@@ -161,8 +168,8 @@ def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
 def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:
     """Return the factors, with 0 for what rounding leaves of a factor that vanishes."""
     least = factors.max(axis=0) * (NONE_LEFT if at_end else 0.0)
-    found: list[list[float]] = np.where(factors > least, factors, 0.0).tolist()
-    return found
+    kept: list[list[float]] = np.where(factors > least, factors, 0.0).tolist()
+    return kept
 
 
 # What a linkage is called: by the lengths of its four-bars, its dyads, its gears and what drives it.
@@ -576,8 +583,8 @@ class Info:
     @property
     def time_ratio(self) -> float | None:
         """The time of the output's slow stroke over its quick one's; None without a slider or a rocker."""
-        found = self.swing or self._slider
-        return found.time_ratio if found else None
+        stroke = self.swing or self._slider
+        return stroke.time_ratio if stroke else None
 
     @property
     def output_name(self) -> str:
@@ -616,8 +623,8 @@ class Info:
         body = output_body(self.mechanism.linkage)
         if body is None or body.slider is not None or body.name in self.turning_links:
             return None
-        found = _to_and_fro(self.mechanism, body.name, "angle", "angular_velocity")
-        return found if found.stroke else None
+        swing = _to_and_fro(self.mechanism, body.name, "angle", "angular_velocity")
+        return swing if swing.stroke else None
 
     @cached_property
     def demand(self) -> Demand | None:
@@ -770,16 +777,16 @@ def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Arra
     def turning(near: Array) -> Array:
         return np.asarray(getattr(mechanism.solve(phase=near, speed=1.0, derivatives=1), rate)[name])
 
-    found = sign_changes(turning, phases)
+    phases_of_rest = sign_changes(turning, phases)
     if not mechanism.full_turn:
-        stops, ends = mechanism.stops or ("", ""), np.rint(found / math.pi)
+        stops, ends = mechanism.stops or ("", ""), np.rint(phases_of_rest / math.pi)
         all_turns = [kept or not stop for kept, stop in zip(mechanism.keeps, stops, strict=True)]
-        near = np.abs(found - math.pi * ends) < TURNING_WITH_IT
-        found = np.where(near & np.where(ends % 2, *all_turns[::-1]), math.pi * ends, found)
-    near, *far = (np.abs(turning(found + way)) for way in (TURNING_WITH_IT, _AWAY, -_AWAY))
+        near = np.abs(phases_of_rest - math.pi * ends) < TURNING_WITH_IT
+        phases_of_rest = np.where(near & np.where(ends % 2, *all_turns[::-1]), math.pi * ends, phases_of_rest)
+    near, *far = (np.abs(turning(phases_of_rest + way)) for way in (TURNING_WITH_IT, _AWAY, -_AWAY))
     flat = near <= _FLAT * np.maximum(*far)
     return np.array(
-        [_steepest(mechanism, at) if level else at for at, level in zip(found, flat, strict=True)]
+        [_steepest(mechanism, at) if level else at for at, level in zip(phases_of_rest, flat, strict=True)]
     )
 
 
@@ -805,7 +812,7 @@ def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:
     for part in in_blocks(phases):
         motion = mechanism.solve(phase=part, speed=1.0, derivatives=1)
         unit = "{}/s" if rate.startswith("travel") else "rad/s"
-        if np.any(said(motion, getattr(motion, rate)[name], unit, 1)):
+        if np.any(as_output(motion, getattr(motion, rate)[name], unit, 1)):
             return False
     return True
 
@@ -841,13 +848,13 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     yield "true period", f"{turns}, {short(info.period_seconds)} s"
 
 
-def _worst(info: Info, found: Transmission) -> str:
+def _worst(info: Info, transmission: Transmission) -> str:
     """Return the least transmission angle in words, its dyad and where the input is then."""
-    least = f"{significant(math.degrees(found.least), 3)}° at {found.dyad}"
-    if found.greatest - found.least <= SAME_PLACE:
+    least = f"{significant(math.degrees(transmission.least), 3)}° at {transmission.dyad}"
+    if transmission.greatest - transmission.least <= SAME_PLACE:
         return f"μ = {least}, all the way"
     linkage = info.mechanism.linkage
-    place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).coordinate)
+    place = float(info.mechanism.solve(phase=transmission.phase, speed=1.0, derivatives=0).coordinate)
     if not linkage.drive.coordinate.is_angle:
         where = f"{typeset(significant(place, 4))} {info.length_unit}"
     else:

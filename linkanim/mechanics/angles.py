@@ -109,10 +109,10 @@ class Half:
 
     def squares(self, factor: float) -> Squares:
         """Return sin², cos² and sin × cos of the half angle, times a factor."""
-        found = self._squares.get(factor)
-        if found is None:
-            found = self._squares[factor] = self.times(factor)
-        return found
+        squares = self._squares.get(factor)
+        if squares is None:
+            squares = self._squares[factor] = self.times(factor)
+        return squares
 
     @cached_property
     def _squares(self) -> dict[float, Squares]:

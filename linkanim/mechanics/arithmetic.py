@@ -148,9 +148,9 @@ class Graph:
 
     def input(self, name: str, *, uniform: bool = False) -> Expr:
         """Return the named input of the program; `uniform` where it is one number for a whole array."""
-        found = self.node("input", name)
-        found.uniform = uniform
-        return found
+        node = self.node("input", name)
+        node.uniform = uniform
+        return node
 
     def constant(self, number: float) -> float:
         """Return a number as it is recorded: a `Constant` where the graph is `exact`, else a plain float."""
@@ -164,12 +164,12 @@ class Graph:
             if isinstance(one, Expr) and not (isinstance(other, Expr) and other.index >= one.index):
                 args = other, one
         key = (op, *args)
-        found = self._nodes.get(key)
-        if found is None:
-            found = Expr(self, op, args, self._count)
-            self._nodes[key] = found
+        node = self._nodes.get(key)
+        if node is None:
+            node = Expr(self, op, args, self._count)
+            self._nodes[key] = node
             self._count += 1
-        return found
+        return node
 
     def forget(self) -> None:
         """Forget the nodes, which do not need the graph, so that each is freed with its last user.
@@ -194,9 +194,9 @@ class FormGraph(Graph):
 
     def sampled(self, name: str, sample: float, usual: float) -> Expr:
         """Return the named input, of which one value is known, and the usual one."""
-        found = self.input(name)
-        self._known[found.index] = sample, usual
-        return found
+        node = self.input(name)
+        self._known[node.index] = sample, usual
+        return node
 
     def known(self, value: Value) -> tuple[float, ...]:
         """Return what a value is for the sample, and for usual numbers; TypeError where that is not known."""
@@ -213,9 +213,9 @@ class FormGraph(Graph):
 
     def less(self, one: Value, other: Value) -> bool:
         """Tell whether one value is less than another, for the sample and all that are solved as it is."""
-        found = self.known(one)[0] < self.known(other)[0]
-        self.conditions.append(other - one if found else one - other)
-        return found
+        is_less = self.known(one)[0] < self.known(other)[0]
+        self.conditions.append(other - one if is_less else one - other)
+        return is_less
 
 
 class Expr:

@@ -68,10 +68,10 @@ def counterweights(linkage: Linkage) -> tuple[Counterweight, ...] | None:
 
     None, too, where the coupler has no mass. Bars without a stated mass count as without any.
     """
-    found = _four_bar(linkage)
-    if found is None:
+    bars = _four_bar(linkage)
+    if bars is None:
         return None
-    (first, b3, last), (r2, r3, r4), names = found
+    (first, b3, last), (r2, r3, r4), names = bars
     share = _moment(linkage, b3, names[1]) / b3.mass / r3 if b3.mass else 0.0
     needed = (-(b3.mass or 0.0) * (1 - share) * r2, -(b3.mass or 0.0) * share * r4)
     weights = []
@@ -110,8 +110,8 @@ def shaken(linkage: Linkage, speed: float) -> Shaken:
     """Return what inertia alone does to the ground at an even speed (rad/s of phase), the moment about 0."""
     alone = replace(linkage, gravity=0.0, loads=(), springs=(), dampers=())
     solved = mechanism(alone)
-    found = solved.solve(phase=solved.phases, speed=speed).reactions
-    return Shaken(solved.phases, np.hypot(*found.ground), np.asarray(found.moment))
+    reactions = solved.solve(phase=solved.phases, speed=speed).reactions
+    return Shaken(solved.phases, np.hypot(*reactions.ground), np.asarray(reactions.moment))
 
 
 def shaking(linkage: Linkage, speed: float) -> Shaking:
@@ -131,9 +131,9 @@ def balanced(linkage: Linkage, weights: tuple[Counterweight, ...]) -> Linkage:
 
 def _weighted(linkage: Linkage, body: Body, weight: Counterweight) -> Body:
     """Return a body with a counterweight; its centre from its first joint."""
-    found = _four_bar(linkage)
-    assert found is not None
-    pivot = found[2][0] if body.name == found[0][0].name else found[2][2]
+    bars = _four_bar(linkage)
+    assert bars is not None
+    pivot = bars[2][0] if body.name == bars[0][0].name else bars[2][2]
     mass = (body.mass or 0.0) + weight.mass
     centre = (_moment(linkage, body, pivot) + weight.mass * weight.place) / mass
     inertia = None

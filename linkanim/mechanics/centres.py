@@ -132,9 +132,9 @@ def kennedy(
     if to_ground:
         pairs = [pair for pair in pairs if pair[0] == next(iter(links))]
     for least in (2,) if to_ground else (2, 1):
-        while found := next(_next(links, pairs, known, least), None):
-            steps.append(found)
-            known.add(found.pair)
+        while step := next(_next(links, pairs, known, least), None):
+            steps.append(step)
+            known.add(step.pair)
     return tuple(steps)
 
 
@@ -211,10 +211,10 @@ def pole(motion: Any, body: Body, other: Link = None) -> tuple[Any, Any]:
     x, y = components(motion.position[_point(body)])
     rate, vx, vy = _steadily(motion, body, other)
     turning, moving = abs(rate) * linkage.extent, size((vx, vy))
-    found = x - over(vy, rate), y + over(vx, rate)
+    place = x - over(vy, rate), y + over(vx, rate)
     away = np.where(moving > 0, math.inf, math.nan) + still
     turns = turning > STRAIGHT * moving
-    return np.where(turns, found[0], away)[()], np.where(turns, found[1], away)[()]
+    return np.where(turns, place[0], away)[()], np.where(turns, place[1], away)[()]
 
 
 def _steadily(motion: Any, body: Body, other: Link) -> tuple[Any, Any, Any]:
@@ -230,15 +230,15 @@ def _steadily(motion: Any, body: Body, other: Link) -> tuple[Any, Any, Any]:
         rate, vx, vy = _velocity_between(motion, body, other)
         return size((vx, vy)) + abs(rate) * extent, rate, vx, vy
 
-    moves, *found = steady(motion, joints, read)
+    moves, *place = steady(motion, joints, read)
     rests = ~moves
     if np.any(rests):
         begun = _velocity_between(motion.mechanism.solve(phase=motion.phase, speed=1.0), body, other, _BEGUN)
         still = size(begun[1:]) + abs(begun[0]) * extent <= ROUNDING * extent
-        found = [
-            np.where(rests, np.where(still, 0.0, new), old)[()] for new, old in zip(begun, found, strict=True)
+        place = [
+            np.where(rests, np.where(still, 0.0, new), old)[()] for new, old in zip(begun, place, strict=True)
         ]
-    return found[0], found[1], found[2]
+    return place[0], place[1], place[2]
 
 
 _MOVING = "velocity", "angular_velocity"

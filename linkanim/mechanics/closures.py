@@ -24,11 +24,13 @@ def group_closures(linkage: Linkage) -> list[dict[str, complex]]:
     if group_of(linkage) is None:
         return []
     system = system_of(linkage.near)
-    found: list[Array] = []
+    closures: list[Array] = []
     for one in (system.start, *_solved(system)):
-        if not any(np.abs(_told(system, one) - _told(system, other)).max() < ONE_CLOSURE for other in found):
-            found.append(one)
-    return [_places(linkage, system, one) for one in found]
+        if not any(
+            np.abs(_told(system, one) - _told(system, other)).max() < ONE_CLOSURE for other in closures
+        ):
+            closures.append(one)
+    return [_places(linkage, system, one) for one in closures]
 
 
 def _told(system: LinkEquations, y: Array) -> NDArray[np.complex128]:
@@ -77,9 +79,11 @@ def _step(system: LinkEquations, y: Array) -> Array:
 def _places(linkage: Linkage, system: LinkEquations, y: Array) -> dict[str, complex]:
     """Return the places of all joints of the system's links, in the linkage's unit."""
     x, left = linkage.origin
-    found: dict[str, complex] = {}
+    places: dict[str, complex] = {}
     for n, frame in enumerate(system.frames):
         origin, turn = complex(y[3 * n], y[3 * n + 1]), np.exp(1j * y[3 * n + 2])
         for name in frame.points:
-            found.setdefault(name, complex(origin + frame.at(name) * turn) / system.shrunk + complex(x, left))
-    return found
+            places.setdefault(
+                name, complex(origin + frame.at(name) * turn) / system.shrunk + complex(x, left)
+            )
+    return places

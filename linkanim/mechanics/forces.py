@@ -22,7 +22,9 @@ from numpy.typing import NDArray
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring, holding
 from linkanim.mechanics.measures import (
+    as_output,
     between,
+    cleaned,
     components,
     cross,
     dot,
@@ -31,8 +33,6 @@ from linkanim.mechanics.measures import (
     loaded,
     over,
     rounding_of,
-    said,
-    settled,
     size,
     stands,
 )
@@ -86,24 +86,24 @@ def input_effort(motion: Any) -> Any:
     """
     with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
         power = _power(motion, _MOVING)
-        found = _quotient(motion, power, _MOVING)
+        effort = _quotient(motion, power, _MOVING)
     unbounded = ~np.isfinite(power.weight) & ~np.isnan(motion.phase)
-    found = np.where(unbounded, np.inf, found)[()] if np.any(unbounded) else found
+    effort = np.where(unbounded, np.inf, effort)[()] if np.any(unbounded) else effort
     if not motion.acceleration or not np.any(near := stands(motion, AT_END)):
-        return found
+        return effort
     stops, still = stands(motion), power.weight <= power.rounding
     starting = _quotient(motion, _power(motion, _STARTING), _STARTING)
-    found = np.where(stops, np.where(still, starting, np.inf), found)
+    effort = np.where(stops, np.where(still, starting, np.inf), effort)
     near = idle(motion, np.asarray(near & ~(stops & still)))
     if np.any(near):
-        found[near] = beside(motion, near, lambda there: _quotient(there, _power(there, _MOVING), _MOVING))
-    return found[()]
+        effort[near] = beside(motion, near, lambda there: _quotient(there, _power(there, _MOVING), _MOVING))
+    return effort[()]
 
 
 def _quotient(motion: Any, power: _Power, rates: _Rates) -> Any:
     """Return power over pace, 0 where that is rounding, infinite or NaN where the pace is 0."""
     pace = _pace(motion, rates)
-    return settled(over(power.total, pace), over(power.rounding, abs(pace)))
+    return cleaned(over(power.total, pace), over(power.rounding, abs(pace)))
 
 
 def near_ends(motion: Any) -> Any:
@@ -117,12 +117,12 @@ def idle(motion: Any, near: NDArray[np.bool_]) -> NDArray[np.bool_]:
     It takes no power at the end, and the effort is 0/0. Where it rests with the input, both have their digits
     up to the end.
     """
-    found = near.copy()
+    is_idle = near.copy()
     if np.any(near):
         phase = np.broadcast_to(motion.phase, near.shape)[near]
         there = _power(_solved(motion, near, math.pi * np.rint(phase / math.pi)), _MOVING)
-        found[near] = (there.weight > there.rounding) & (np.abs(there.total) <= IDLE * there.rounding)
-    return found
+        is_idle[near] = (there.weight > there.rounding) & (np.abs(there.total) <= IDLE * there.rounding)
+    return is_idle
 
 
 def beside(motion: Any, where: NDArray[np.bool_], read: Callable[[Any], Any]) -> Any:
@@ -283,7 +283,7 @@ def _needs_of(cycle: Any) -> tuple[Array, Array]:
     linkage, used = cycle.mechanism.linkage, 0.0 * np.asarray(cycle.phase)
     for item in linkage.dampers:
         if item.coefficient is not None and holding(linkage.rigid_bodies, item.between) is None:
-            rate = said(cycle, cycle.damper[item.name].rate, "{}/s", 1) * linkage.metre
+            rate = as_output(cycle, cycle.damper[item.name].rate, "{}/s", 1) * linkage.metre
             used = used + item.coefficient * rate * rate
     for power, _, _ in _load_power(cycle, _MOVING):
         used = used + power

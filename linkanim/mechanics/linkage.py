@@ -1098,11 +1098,11 @@ class Linkage(Stated):
     @cached_property
     def radii(self) -> dict[str, float]:
         """How far each joint is from the fixed pin that it turns about; infinite where its line is fixed."""
-        found = {slide.point: math.inf for joint in self.joints for slide in joint.slides if not slide.start}
+        radii = {slide.point: math.inf for joint in self.joints for slide in joint.slides if not slide.start}
         for frame in self.rigid_bodies[1:]:
             if (pivot := self.pivot(frame)) is not None:
-                found |= {name: abs(place - frame[pivot]) for name, place in frame.items() if name != pivot}
-        return {name: radius for name, radius in found.items() if radius}
+                radii |= {name: abs(place - frame[pivot]) for name, place in frame.items() if name != pivot}
+        return {name: radius for name, radius in radii.items() if radius}
 
     def pivot(self, names: Iterable[str]) -> str | None:
         """Return the fixed pin of the rigid body with these joints; None where it has none, or several."""
@@ -1113,15 +1113,15 @@ class Linkage(Stated):
     @cached_property
     def _through(self) -> dict[str, frozenset[str]]:
         """Map each joint that moves to the joints through which all of its motion runs, itself among them."""
-        found: dict[str, frozenset[str]] = {}
+        supports: dict[str, frozenset[str]] = {}
         for joint in self.joints:
             if not joint.fixed:
-                before = [found[name] for name in joint.needs if name in found]
+                before = [supports[name] for name in joint.needs if name in supports]
                 # a gear turns with the input, whatever its pivot does
                 geared = isinstance(joint, Crank) and joint.gear is not None
                 shared = frozenset.intersection(*before) if before and not geared else frozenset()
-                found[joint.name] = frozenset() if joint.grouped else shared | {joint.name}
-        return found
+                supports[joint.name] = frozenset() if joint.grouped else shared | {joint.name}
+        return supports
 
     def movers(self, names: Iterable[str]) -> tuple[str, ...]:
         """Return the joints by which alone these joints are moved, the nearest first.

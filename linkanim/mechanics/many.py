@@ -198,12 +198,12 @@ def _walked(form: LinkageForm, linkage: Linkage, x: Value, pace: Slope) -> Walk:
         raise Unlike
     turning = Turn(linkage.drive.start, 1)
     signs = {joint.name: joint.named_sign for joint in linkage.joints if joint.named_sign is not None}
-    found = [
+    walks = [
         (Assembly(linkage, loops, turning, one, of_inputs=True), moved)
         for moved in ([_swing(linkage, *limiting[0], n) for n in (0, 1)] if limiting else [turning.state])
         for one in (signs, *({**signs, name: -signs[name]} for name in _named(linkage)))
     ]
-    assembly, moved = next((one for one in found if _is_as_named(*one)), found[0])
+    assembly, moved = next((one for one in walks if _is_as_named(*one)), walks[0])
     return walked(assembly, moved(x, pace))
 
 

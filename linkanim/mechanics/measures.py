@@ -61,24 +61,24 @@ from linkanim.mechanics.tolerances import ASIDE, FEWER_ERRORS, ROUNDING, SLOW, S
 # rates by that link's own way are taken, which go on, or those by the input's (`steady`).
 
 
-def settled(found: Any, rounding: Any) -> Any:
+def cleaned(value: Any, rounding: Any) -> Any:
     """Return numbers with 0.0 for those no larger than rounding errors, and +inf for both infinities.
 
-    `found` is a float, a pair of floats, or an array against which `rounding` broadcasts.
+    `value` is a float, a pair of floats, or an array against which `rounding` broadcasts.
     """
-    if isinstance(found, tuple):
-        return tuple(settled(part, rounding) for part in found)
-    if isinstance(found, float) and isinstance(rounding, float):
-        size = abs(found)
-        return 0.0 if size <= rounding else math.inf if size == math.inf else found
-    return np.where(np.abs(found) <= rounding, 0.0, np.where(np.isinf(found), np.inf, found))[()]
+    if isinstance(value, tuple):
+        return tuple(cleaned(part, rounding) for part in value)
+    if isinstance(value, float) and isinstance(rounding, float):
+        size = abs(value)
+        return 0.0 if size <= rounding else math.inf if size == math.inf else value
+    return np.where(np.abs(value) <= rounding, 0.0, np.where(np.isinf(value), np.inf, value))[()]
 
 
-def said(motion: Any, found: Any, unit: str, order: int) -> Any:
+def as_output(motion: Any, value: Any, unit: str, order: int) -> Any:
     """Return solved numbers of a motion as every output shows them; vectors are arrays (..., 2) or pairs."""
     rounding = rounding_of(motion, unit, order)
-    vectors = np.ndim(found) == np.ndim(rounding) + 1 if isinstance(rounding, np.ndarray) else False
-    return settled(found, rounding[..., None] if vectors else rounding)
+    vectors = np.ndim(value) == np.ndim(rounding) + 1 if isinstance(rounding, np.ndarray) else False
+    return cleaned(value, rounding[..., None] if vectors else rounding)
 
 
 def rounding_of(motion: Any, unit: str, order: int) -> Any:
@@ -127,7 +127,7 @@ def _size(unit: str, extent: float) -> float:
 #
 # Every function takes a Motion, and works on arrays, or a Pose, and works on floats: by + - × ÷ and roots of
 # components, and numpy's functions, so that both have the same bits. NaN stands for no value at an instant,
-# infinity for an unbounded one (`settled`). Symbols are those of the textbooks on mechanisms: ω, α, v, a;
+# infinity for an unbounded one (`cleaned`). Symbols are those of the textbooks on mechanisms: ω, α, v, a;
 # h and f for first kinematic coefficients.
 
 
@@ -166,9 +166,9 @@ class FarPositions(Mapping[str, Any]):
         place, (x, y) = self.near[name], self.origin
         if isinstance(place, tuple):
             return place[0] + x, place[1] + y
-        found = place + np.array([x, y])
-        found.flags.writeable = False
-        return found
+        position = place + np.array([x, y])
+        position.flags.writeable = False
+        return position
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.near)
@@ -202,8 +202,8 @@ def cross(vector: Vector, other: Vector) -> Any:
 def growth(vector: Vector, rate: Vector) -> Any:
     """Return how fast a vector's length grows, given its rate; of length 0, how fast it is about to grow."""
     length = size(vector)
-    found = over(dot(vector, rate), length)
-    return found if np.all(length) else np.where(length == 0, size(rate), found)[()]
+    rate_of_growth = over(dot(vector, rate), length)
+    return rate_of_growth if np.all(length) else np.where(length == 0, size(rate), rate_of_growth)[()]
 
 
 def direction(vector: Vector) -> Any:
@@ -278,7 +278,7 @@ def steady(motion: Any, joints: Iterable[str], read: Callable[[Any], tuple[Any, 
         if linkage.drive.coordinate.is_angle:
             ways.append(lambda: motion.per_input)
         ways.append(lambda: motion.mechanism.solve(phase=motion.phase, speed=1.0))
-    share, found = _moved(motion, read)
+    share, values = _moved(motion, read)
     for way in ways:
         poor = share < SLOW
         if not np.any(poor):
@@ -286,8 +286,8 @@ def steady(motion: Any, joints: Iterable[str], read: Callable[[Any], tuple[Any, 
         better, others = _moved(way(), read)
         taken = poor & (better > share)
         share = np.where(taken, better, share)[()]
-        found = tuple(np.where(taken, new, old)[()] for new, old in zip(others, found, strict=True))
-    return share > ROUNDING, *found
+        values = tuple(np.where(taken, new, old)[()] for new, old in zip(others, values, strict=True))
+    return share > ROUNDING, *values
 
 
 def _moved(motion: Any, read: Callable[[Any], tuple[Any, ...]]) -> tuple[Any, tuple[Any, ...]]:
@@ -296,10 +296,10 @@ def _moved(motion: Any, read: Callable[[Any], tuple[Any, ...]]) -> tuple[Any, tu
     Of more than one extent the first is the reciprocal: it is near 0 where rates have few digits.
     """
     with np.errstate(invalid="ignore", over="ignore"):
-        size, *found = read(motion)
+        size, *values = read(motion)
         share = over(size, motion.mechanism.linkage.extent * abs(motion.input_speed))
         share = np.minimum(share, over(1.0, share))
-    return np.where(np.isnan(share), 0.0, share)[()], tuple(found)
+    return np.where(np.isnan(share), 0.0, share)[()], tuple(values)
 
 
 def transmission_angle(motion: Any, dyad: str) -> Any:
@@ -367,7 +367,7 @@ def mechanical_advantage(motion: Any, output: Body) -> Any:
     slope = by_input(motion)
     if np.any(stops := stands(motion)):
         slope = np.where(stops, unbounded(by_input(motion.per_input), motion.phase), slope)[()]
-    return abs(over(length, settled(slope, rounding_of(motion, first.unit, 0))) + 0.0 * motion.phase)
+    return abs(over(length, cleaned(slope, rounding_of(motion, first.unit, 0))) + 0.0 * motion.phase)
 
 
 def rate_of(motion: Any, body: Body) -> Any:
@@ -378,7 +378,7 @@ def rate_of(motion: Any, body: Body) -> Any:
 def input_place(motion: Any) -> Any:
     """Return where the input is: the driven angle, or how far a slider that drives has travelled."""
     unit = "rad" if motion.mechanism.linkage.drive.coordinate.is_angle else "{}"
-    return said(motion, motion.coordinate + 0.0 * motion.phase, unit, 0)
+    return as_output(motion, motion.coordinate + 0.0 * motion.phase, unit, 0)
 
 
 def input_rate(motion: Any) -> Any:
@@ -392,7 +392,7 @@ class Measure(NamedTuple):
     `name` ends the token, and is the attribute of Motion that holds it, if one does; `key` is the name in
     JSON and `heading` that in a table of plain letters. In `unit`, `{}` stands for the unit of length.
     `order` counts derivatives in time. `read` takes a Motion or a Pose and the part's name, and returns
-    values as `settled` does. Where its `divisor` changes sign the measure may be unbounded.
+    values as `cleaned` does. Where its `divisor` changes sign the measure may be unbounded.
     """
 
     name: str
@@ -418,7 +418,7 @@ def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: 
     key = name.removeprefix("travel_").removeprefix("com_")
 
     def read(motion: Any, part: str) -> Any:
-        return said(motion, getattr(motion, name)[part], unit, order)
+        return as_output(motion, getattr(motion, name)[part], unit, order)
 
     return Measure(name, key, symbol, words, unit, order, heading or symbol, read)
 
@@ -458,7 +458,7 @@ def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, ...]:
     second = "second_coefficient", "2", f"{symbol}′", words, units[1], 0, f"d2{letter}/d{plain}2"
 
     def read(place: int) -> Callable[[Any, str], Any]:
-        return lambda motion, part: said(motion, motion.coefficient[part][place], units[place], 0)
+        return lambda motion, part: as_output(motion, motion.coefficient[part][place], units[place], 0)
 
     return Measure(*first, read(0)), Measure(*second, read(1))
 
@@ -469,21 +469,21 @@ def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tupl
     return TURNING if turning else TRAVELLING, coefficients_of(linkage, turning=turning)
 
 
-def _strut(motion: Any, item: Spring | Damper, found: Any, name: str) -> Any:
+def _strut(motion: Any, item: Spring | Damper, values: Any, name: str) -> Any:
     """Return a strut's quantity of that name; between two joints of one rigid body its length is constant."""
-    value = getattr(found, name)
+    value = getattr(values, name)
     if value is None:
         return None
     rigid = holding(motion.mechanism.linkage.rigid_bodies, item.between) is not None
     if rigid and (name == "rate" or (name == "force" and isinstance(item, Damper))):
         return 0.0 * motion.phase
     if name == "force":
-        return settled(value, force_rounding(motion, item))
+        return cleaned(value, force_rounding(motion, item))
     if name in ("length", "rate"):
-        return said(motion, value, "{}" if name == "length" else "{}/s", int(name == "rate"))
-    nowhere = np.equal(said(motion, found.length, "{}", 0), 0.0)
+        return as_output(motion, value, "{}" if name == "length" else "{}/s", int(name == "rate"))
+    nowhere = np.equal(as_output(motion, values.length, "{}", 0), 0.0)
     order = int(name == "direction_rate")
-    return np.where(nowhere, np.nan, said(motion, value, "rad/s" if order else "rad", order))[()]
+    return np.where(nowhere, np.nan, as_output(motion, value, "rad/s" if order else "rad", order))[()]
 
 
 def force_rounding(motion: Any, item: Spring | Damper) -> Any:
@@ -513,7 +513,7 @@ def _share_of(motion: Any, load: Load) -> Any:
         place = motion.travel[load.on] if load.over_travel else motion.coordinate
         share = np.interp(place, load.places, load.values, period=None if load.over_travel else math.tau)
     if load.against or load.way:
-        ways = np.sign(said(motion, motion.travel_velocity[load.on], "{}/s", 1))
+        ways = np.sign(as_output(motion, motion.travel_velocity[load.on], "{}/s", 1))
         alone = -ways if load.against else abs(ways)
         alone = np.where(ways == load.way, alone, 0.0) if load.way else alone
         share = alone if share is None else share * alone
@@ -546,8 +546,8 @@ def _radius(motion: Any, prefix: str, part: str) -> float | None:
     """Return the radius of the circle on which a joint, or a centre of mass, runs; None for other paths."""
     linkage = motion.mechanism.linkage
     if not prefix:
-        found: float | None = linkage.radii.get(part)
-        return found
+        radius: float | None = linkage.radii.get(part)
+        return radius
     body = motion.mechanism.linkage.body(part)
     if (pivot := linkage.pivot(body.joints)) is None:
         return None
@@ -578,28 +578,28 @@ def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
         rates = _rates(motion, prefix, part)
         return size(rates[0]), curvature_radius(*rates, FEWER_ERRORS * rounding_of(motion, "{}/s²", 2))
 
-    moves, found = steady(motion, joints, read)
+    moves, values = steady(motion, joints, read)
     turns = ~moves & ~np.isnan(motion.phase)
     if not np.any(turns):
-        return found
+        return values
     solve = motion.mechanism.solve
     near, far = (read(solve(phase=motion.phase + n * ASIDE, speed=1.0))[1] for n in (1, 2))
     with np.errstate(invalid="ignore"):
         cusped = np.where(far > 1.5 * near, 0.0, near)
-        return np.where(turns, np.where(np.isinf(near), near, cusped), found)[()]
+        return np.where(turns, np.where(np.isinf(near), near, cusped), values)[()]
 
 
 def _along(motion: Any, prefix: str, part: str) -> Any:
     """Return the tangential acceleration; of a point that rests, that with which it is about to move."""
     velocity, acceleration = _rates(motion, prefix, part)
-    rests = np.equal(said(motion, size(velocity), "{}/s", 1), 0.0)
+    rests = np.equal(as_output(motion, size(velocity), "{}/s", 1), 0.0)
     return np.where(rests, size(acceleration), tangential(velocity, acceleration))[()]
 
 
 def _across(motion: Any, prefix: str, part: str) -> Any:
     """Return the normal acceleration, 0 of a point that rests."""
     velocity, acceleration = _rates(motion, prefix, part)
-    speed, radius = said(motion, size(velocity), "{}/s", 1), _radius(motion, prefix, part)
+    speed, radius = as_output(motion, size(velocity), "{}/s", 1), _radius(motion, prefix, part)
     if radius is not None:
         return speed * speed / radius
     return np.where(np.equal(speed, 0.0), 0.0, normal(velocity, acceleration))[()]
@@ -611,8 +611,8 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
     def bent(name: str, symbol: str, words: str, unit: str, order: int, work: Callable[..., Any]) -> Measure:
         def read(motion: Any, part: str) -> Any:
             with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
-                found = work(motion, prefix, part)
-            return said(motion, found, unit, order)
+                value = work(motion, prefix, part)
+            return as_output(motion, value, unit, order)
 
         def turning(motion: Any, part: str) -> Any:
             return cross(*_rates(motion, prefix, part))
@@ -632,14 +632,14 @@ PATH, CENTRE_PATH = _of_paths(""), _of_paths("com_")
 
 def slips(linkage: Linkage) -> dict[str, Slide]:
     """Return what slides on links that move, by the link's name: of several on one link the first."""
-    found: dict[str, Slide] = {}
+    slides: dict[str, Slide] = {}
     for joint in linkage.joints:
         for slide in (one for one in joint.slides if one.start is not None):
             axis = slide.line.on
             for body in linkage.bodies:
                 if {*axis} <= {*body.joints} if axis else body.slider == slide.start:
-                    found.setdefault(body.name, slide)
-    return found
+                    slides.setdefault(body.name, slide)
+    return slides
 
 
 def slip_of(motion: Any, link: str) -> tuple[Any, Any, Any, Any]:
@@ -663,7 +663,7 @@ def slip_of(motion: Any, link: str) -> tuple[Any, Any, Any, Any]:
 def _of_slip(place: int, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
     def read(motion: Any, link: str) -> Any:
         with np.errstate(invalid="ignore"):
-            return said(motion, slip_of(motion, link)[place] + 0.0 * motion.phase, unit, order)
+            return as_output(motion, slip_of(motion, link)[place] + 0.0 * motion.phase, unit, order)
 
     return Measure(name, name, symbol, words, unit, order, name, read)
 

@@ -413,8 +413,8 @@ class Motion(Derived[Array, Array]):
             return NOTHING
         if name not in layout.places:
             return NOTHING
-        found = {name: arrays(layout, results, self.asked.shape, name)}
-        vars(self).update(found if self.asked.joints is not None else self.mechanism.placed(found))
+        values = {name: arrays(layout, results, self.asked.shape, name)}
+        vars(self).update(values if self.asked.joints is not None else self.mechanism.placed(values))
         return vars(self)[name]
 
     @cached_property
@@ -432,8 +432,8 @@ class Motion(Derived[Array, Array]):
         if asked.variant.by_phase:
             return (asked.x if asked.phases is None else asked.phases).reshape(asked.shape)
         with np.errstate(all="ignore"):
-            found = self.mechanism.assembly.path.phases(asked.x.reshape(asked.shape), asked.distances)
-        phases: Array = read_only(found)
+            values = self.mechanism.assembly.path.phases(asked.x.reshape(asked.shape), asked.distances)
+        phases: Array = read_only(values)
         return phases
 
     @cached_property
@@ -503,8 +503,8 @@ class Motion(Derived[Array, Array]):
     def _direction(self, ends: tuple[str, str], x: Array) -> Array:
         """Return the direction of one joint to another at other instants."""
         angle, phase = (None, x) if self.asked.variant.by_phase else (x, None)
-        found = self.mechanism.solve(angle=angle, phase=phase, speed=1.0, derivatives=0).position
-        return np.asarray(direction(between(found, ends)))
+        position = self.mechanism.solve(angle=angle, phase=phase, speed=1.0, derivatives=0).position
+        return np.asarray(direction(between(position, ends)))
 
 
 def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
@@ -523,8 +523,8 @@ def _crank_angle(input_angle: Any, phase: Any, gearing: Gearing, from_pin: bool)
 class Pose(Derived[Pair, float]):
     """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
 
-    def __init__(self, found: dict[str, Any]) -> None:
-        self.__dict__ = found
+    def __init__(self, results: dict[str, Any]) -> None:
+        self.__dict__ = results
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was solved, without what follows from it."""
@@ -572,17 +572,17 @@ Traced = tuple[tuple[str, ...], Rows]
 class Mechanism:
     """A linkage with its loops, path and signs, and the programs that solve it.
 
-    A mechanism that is `passing` is solved at a few instants only. They come from the program over arrays,
+    A mechanism that is `transient` is solved at a few instants only. They come from the program over arrays,
     which its cycle needs anyway: a program of one instant would cost more than it saves.
     """
 
     linkage: Linkage
     assembly: Assembly
-    passing: bool = False
+    transient: bool = False
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as the linkage, which is made ready anew."""
-        return (passing if self.passing else mechanism), (self.linkage,)
+        return (transient if self.transient else mechanism), (self.linkage,)
 
     @property
     def periods(self) -> int:
@@ -700,27 +700,27 @@ class Mechanism:
 
     def _in_floats(self, key: _Key) -> Callable[..., dict[str, Any]]:
         """Return the program of one instant; ValueError where it would cost more than it saves."""
-        if self.passing:
+        if self.transient:
             raise ValueError("a mechanism on its way is solved from arrays")
         derivatives, accelerates, per_input = key
         trace = self.trace(Variant(True, accelerates, per_input=per_input))
         program = _scalar(*trace, derivatives)
         way = self.assembly.path.way
         program = _there_and_back(program, per_input, way) if way else program
-        found = self._poses[key] = program if self.linkage.near is self.linkage else _placed(program)
-        return found
+        solved = self._poses[key] = program if self.linkage.near is self.linkage else _placed(program)
+        return solved
 
-    def placed(self, found: dict[str, Any]) -> dict[str, Any]:
+    def placed(self, results: dict[str, Any]) -> dict[str, Any]:
         """Return quantities by kind, as solved, with positions where they are."""
         if self.linkage.near is self.linkage:
-            return found
-        places = {kind: FarPositions(found[kind], self.linkage.origin) for kind in _PLACES & found.keys()}
-        return found | places
+            return results
+        places = {kind: FarPositions(results[kind], self.linkage.origin) for kind in _PLACES & results.keys()}
+        return results | places
 
     def trace(self, variant: Variant) -> Traced:
         """Record the formulas of all quantities, lengths in the scene's unit."""
-        found = self._traces.get(variant)
-        if found is None:
+        traced = self._traces.get(variant)
+        if traced is None:
             graph = Graph()
             uniform = not variant.varying_rate
             second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
@@ -732,8 +732,8 @@ class Mechanism:
             driven = {kind: {"": (value,)} for kind, value in places}
             rows = dict(walked_rows(walked(self.assembly, state, variant.mover), unscale))
             graph.forget()
-            found = self._traces[variant] = names, driven | rows
-        return found
+            traced = self._traces[variant] = names, driven | rows
+        return traced
 
     def _state(self, graph: Graph, pace: Slope, variant: Variant) -> tuple[tuple[str, ...], InputState]:
         path = self.assembly.path
@@ -749,9 +749,9 @@ class Mechanism:
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
         motion = motion.per_input if per_input else motion
         kinds = (kind for kind in DERIVATIVE_OF if DERIVATIVE_OF[kind] <= derivatives)
-        found = self.placed({kind: _plain(near(getattr(motion, kind))) for kind in kinds})
+        results = self.placed({kind: _plain(near(getattr(motion, kind))) for kind in kinds})
         inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
-        return found | {name: float(getattr(motion, name)) for name in inputs} | {"mechanism": self}
+        return results | {name: float(getattr(motion, name)) for name in inputs} | {"mechanism": self}
 
     def solve(
         self,
@@ -834,10 +834,10 @@ class Mechanism:
         pins among them.
         """
         key = variant, derivatives, joints, points
-        found = self._programs.get(key)
-        if found is None:
-            found = self._programs[key] = self._compiled(*key)
-        return found
+        compiled = self._programs.get(key)
+        if compiled is None:
+            compiled = self._programs[key] = self._compiled(*key)
+        return compiled
 
     def _compiled(
         self, variant: Variant, derivatives: int, joints: tuple[str, ...] | None, points: bool
@@ -888,8 +888,8 @@ def _there_and_back(
 
     def solved(phase: float, w: float, a: float, mechanism: Mechanism) -> dict[str, Any]:
         at, sign = (float(part) for part in retraced(phase, way))
-        found = program(at, *((w, a) if per_input else (sign * w, sign * a)), mechanism)
-        return found | {"phase": phase, "input_speed": w, "input_acceleration": a}
+        results = program(at, *((w, a) if per_input else (sign * w, sign * a)), mechanism)
+        return results | {"phase": phase, "input_speed": w, "input_acceleration": a}
 
     return solved
 
@@ -971,8 +971,8 @@ def stopped(linkage: Linkage) -> Mechanism | None:
     This takes far less time than to make it ready to be solved. AssemblyError where it cannot be put
     together.
     """
-    assembly, found = _assembled(linkage)
-    assembly = limits.stopped(assembly, linkage, found) if found else assembly
+    assembly, separations = _assembled(linkage)
+    assembly = limits.stopped(assembly, linkage, separations) if separations else assembly
     return None if assembly.path.full_turn else Mechanism(linkage, assembly)
 
 
@@ -981,8 +981,8 @@ def _other_ranges(linkage: Linkage, own: tuple[float, float]) -> Iterator[tuple[
     known = [own]
     for start in starts(linkage):
         try:
-            assembly, found = _assembled(_starting(linkage, start))
-            places = open_places(assembly, found) if found else [start]
+            assembly, separations = _assembled(_starting(linkage, start))
+            places = open_places(assembly, separations) if separations else [start]
         except AssemblyError:
             continue
         for place in places:
@@ -1009,14 +1009,14 @@ def _are_alike(one: tuple[float, float], other: tuple[float, float]) -> bool:
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
     assembly, fare = _assembled(linkage)
-    found = Mechanism(linkage, limits.restricted(assembly, linkage, fare) if fare else assembly)
-    found.trace(Variant(True, False))  # which a pose needs, and says what is not one rigid body
-    return found
+    whole = Mechanism(linkage, limits.restricted(assembly, linkage, fare) if fare else assembly)
+    whole.trace(Variant(True, False))  # which a pose needs, and says what is not one rigid body
+    return whole
 
 
-def passing(linkage: Linkage) -> Mechanism:
+def transient(linkage: Linkage) -> Mechanism:
     """Return a linkage on the way between two whose dyads down the chain close all along.
 
     Those dyads are not checked: where one does not close after all, its joints are NaN.
     """
-    return Mechanism(linkage, assemble(linkage), passing=True)
+    return Mechanism(linkage, assemble(linkage), transient=True)

@@ -55,26 +55,26 @@ class PointPath:
         """Whether the joint moves at all."""
         return bool(np.abs(self.rates).max() > 0.0)
 
-    def nearest(self, place: Point, near: float, *, slack: float = 0.0, forward: bool = True) -> float:
+    def nearest(self, place: Point, near: float, *, tolerance: float = 0.0, forward: bool = True) -> float:
         """Return the phase at which the joint is nearest to a place (the scene's unit), in any turn.
 
         Of several equally near poses it is the one nearest to the phase `near`; a pose ahead is preferred to
         one behind, ahead being towards greater phases where `forward`. A minimum that is farther by at most
-        `slack` counts as equally near. `near` itself for a joint that does not move.
+        `tolerance` counts as equally near. `near` itself for a joint that does not move.
         """
         target, period = complex(*place), 2 * math.pi * self.mechanism.periods
-        found = list(self._minima(target, slack))
-        least = min(far for far, _ in found) if found else 0.0
-        equal = least + slack + EQUALLY_FAR * self.size
-        shifts = (math.remainder(phase - near, period) for far, phase in found if far <= equal)
+        minima = list(self._minima(target, tolerance))
+        least = min(far for far, _ in minima) if minima else 0.0
+        equal = least + tolerance + EQUALLY_FAR * self.size
+        shifts = (math.remainder(phase - near, period) for far, phase in minima if far <= equal)
 
         def way_to(shift: float) -> float:
             return abs(shift) if (shift > 0.0) == forward else _BACK * abs(shift)
 
-        return near + min(shifts, key=way_to) if self.moves and found else near
+        return near + min(shifts, key=way_to) if self.moves and minima else near
 
-    def _minima(self, target: complex, slack: float) -> Iterator[tuple[float, float]]:
-        """Yield distance and phase of each minimum that may be the least, or farther by the slack."""
+    def _minima(self, target: complex, tolerance: float) -> Iterator[tuple[float, float]]:
+        """Yield distance and phase of each minimum that may be the least, or farther by the tolerance."""
         apart = self.places - target
         far = np.abs(apart)
         slope = (apart * self.rates.conj()).real
@@ -87,7 +87,7 @@ class PointPath:
         reached = np.minimum(far, far[after]) - 2.0 * step * np.maximum(speed, speed[after])
         least = int(far.argmin())
         yield float(far[least]), float(self.phases[least])
-        for n in np.flatnonzero((falls | turning) & (reached <= far[least] + slack)):
+        for n in np.flatnonzero((falls | turning) & (reached <= far[least] + tolerance)):
             low = float(self.phases[n])
             parts = _PARTS if turning[n] else 1
             yield from self._within(target, [low + step * part / parts for part in range(parts + 1)])

@@ -157,14 +157,14 @@ def needed(outputs: Sequence[Value]) -> list[Expr]:
     They stand in the order of recording, joint by joint: few values wait long for their use, so those in use
     stay in the cache.
     """
-    found: dict[int, Expr] = {}
+    nodes: dict[int, Expr] = {}
     stack: list[Expr | float | str | LookUp] = list(outputs)
     while stack:
         node = stack.pop()
-        if isinstance(node, Expr) and node.index not in found:
-            found[node.index] = node
+        if isinstance(node, Expr) and node.index not in nodes:
+            nodes[node.index] = node
             stack.extend(node.args)
-    return [found[index] for index in sorted(found)]
+    return [nodes[index] for index in sorted(nodes)]
 
 
 class _Constants:
@@ -480,9 +480,9 @@ class _Passes:
     def _code(self) -> MachineCode | None:
         return compiled(self._kinds, self._operations, self._outputs)
 
-    def check(self, found: Array, plain: Array) -> None:
+    def check(self, values: Array, plain: Array) -> None:
         """Refuse the machine code for ever where its results differ from numpy's in any bit."""
-        same = (found.view(np.int64) == plain.view(np.int64)) | (np.isnan(found) & np.isnan(plain))
+        same = (values.view(np.int64) == plain.view(np.int64)) | (np.isnan(values) & np.isnan(plain))
         self.checked = bool(same.all())
         self._refused = not self.checked
 

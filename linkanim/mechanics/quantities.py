@@ -32,6 +32,7 @@ from linkanim.mechanics.measures import (
     SPRING,
     TURNING,
     Measure,
+    as_output,
     between,
     components,
     dyads_of,
@@ -41,7 +42,6 @@ from linkanim.mechanics.measures import (
     output_body,
     rate_of,
     rounding_of,
-    said,
     size,
     slips,
     transmission_angle,
@@ -145,7 +145,7 @@ class Quantity:
 
     `read` takes a Motion (arrays) or a Pose (floats) and says what it is, in radians and the scene's unit of
     length: one value an instant, or one in each of `columns`; 0.0 is exactly nothing, `inf` unbounded, `nan`
-    no value (`measures.settled`). `unit`, `order` and `divisor` are as in `Measure`. `path` is its place in
+    no value (`measures.cleaned`). `unit`, `order` and `divisor` are as in `Measure`. `path` is its place in
     JSON, numbers being places in a list; it is empty for a quantity that follows from others in JSON.
     """
 
@@ -161,8 +161,8 @@ class Quantity:
 
     def shown(self, motion: Any) -> Any:
         """Return the values as people read them: angles in degrees."""
-        found = self.read(motion)
-        return np.degrees(found) if self.unit == "rad" else found
+        value = self.read(motion)
+        return np.degrees(value) if self.unit == "rad" else value
 
     def unbounded_between(self, cycle: Motion) -> Array:
         """Return the phases between the instants of a cycle, at equal steps, at which it is not bounded.
@@ -175,9 +175,9 @@ class Quantity:
             return np.empty(0)
         solve = partial(cycle.mechanism.solve, speed=1.0)
         around = np.append(phases, 2 * phases[-1] - phases[-2])
-        found = sign_changes(lambda near: np.asarray(divisor(solve(phase=near))), around)
-        unbounded: Any = np.isinf(self.read(solve(phase=found)))
-        return np.sort(found[unbounded.any(axis=1) if unbounded.ndim > 1 else unbounded])
+        changes = sign_changes(lambda near: np.asarray(divisor(solve(phase=near))), around)
+        unbounded: Any = np.isinf(self.read(solve(phase=changes)))
+        return np.sort(changes[unbounded.any(axis=1) if unbounded.ndim > 1 else unbounded])
 
     def rounding(self, cycle: Any) -> float:
         """Return how large rounding errors may be over a cycle, from its extent and the input's speed."""
@@ -186,9 +186,9 @@ class Quantity:
     def changes(self, cycle: Any) -> bool:
         """Return whether it has more than one value over a cycle, rounding errors aside."""
         values = np.asarray(self.read(cycle), float)
-        found = values[np.isfinite(values)]
+        finite = values[np.isfinite(values)]
         return bool(
-            found.size and np.ptp(found) > max(LEVEL * np.abs(found).max(), 10 * self.rounding(cycle))
+            finite.size and np.ptp(finite) > max(LEVEL * np.abs(finite).max(), 10 * self.rounding(cycle))
         )
 
     def shown_unit(self, length_unit: str) -> str:
@@ -227,8 +227,8 @@ def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[s
 def _registered(
     linkage: Linkage, names: tuple[tuple[str, str], ...], carriers: _Carriers
 ) -> Mapping[str, Quantity]:
-    found = _quantities(linkage, dict(names), carriers, still=False)
-    return MappingProxyType({quantity.token: quantity for quantity in found})
+    quantities = _quantities(linkage, dict(names), carriers, still=False)
+    return MappingProxyType({quantity.token: quantity for quantity in quantities})
 
 
 def recorded(linkage: Linkage) -> tuple[Quantity, ...]:
@@ -238,8 +238,8 @@ def recorded(linkage: Linkage) -> tuple[Quantity, ...]:
 
 @lru_cache(maxsize=16)
 def _recorded(linkage: Linkage, carriers: _Carriers) -> tuple[Quantity, ...]:
-    found = _quantities(linkage, NO_NAMES, carriers, still=True)
-    return tuple(quantity for quantity in found if quantity.path)
+    quantities = _quantities(linkage, NO_NAMES, carriers, still=True)
+    return tuple(quantity for quantity in quantities if quantity.path)
 
 
 def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
@@ -323,8 +323,8 @@ def _of_coriolis(link: str, joint: str) -> Quantity:
 
 
 def _pole(motion: Any, name: str) -> Any:
-    found = said(motion, pole(motion, motion.mechanism.linkage.body(name)), "{}", 0)
-    return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
+    place = as_output(motion, pole(motion, motion.mechanism.linkage.body(name)), "{}", 0)
+    return place if isinstance(motion.phase, float) else np.stack(place, axis=-1)
 
 
 def _turning(motion: Any, name: str) -> Any:
@@ -475,7 +475,7 @@ def _whole(
     """Return a quantity of the linkage as a whole, which stands in JSON under its own token."""
 
     def told(motion: Any) -> Any:
-        return said(motion, read(motion), unit, order)
+        return as_output(motion, read(motion), unit, order)
 
     return Quantity(token, symbol, words, unit, order, told, path=tuple(token.split(".")))
 
@@ -596,11 +596,11 @@ def bodies_in_chain(linkage: Linkage) -> tuple[Body, ...]:
     """
     moving = [joint.name for joint in linkage.joints if not isinstance(joint, Pin)]
     bodies = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
-    found: list[Body] = []
+    chain: list[Body] = []
     for body in bodies.values():
-        if not any(_rigid(linkage, body, other) for other in found):
-            found.append(body)
-    return tuple(found)
+        if not any(_rigid(linkage, body, other) for other in chain):
+            chain.append(body)
+    return tuple(chain)
 
 
 def _rigid(linkage: Linkage, body: Body, other: Body) -> bool:

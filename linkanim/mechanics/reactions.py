@@ -56,6 +56,7 @@ from linkanim.mechanics.linkage import (
 from linkanim.mechanics.measures import (
     Vector,
     between,
+    cleaned,
     components,
     cross,
     dot,
@@ -65,7 +66,6 @@ from linkanim.mechanics.measures import (
     near,
     over,
     rounding_of,
-    settled,
     size,
     turned,
 )
@@ -182,16 +182,16 @@ def members(linkage: Linkage) -> Members:
 def named_at(linkage: Linkage, member: Member, joint: str) -> str:
     """Return what a body is called at a joint: of several named ones that are one, the one with the joint."""
     own = (body for body in linkage.bodies if joint in body.joints and member_of(linkage, body) == member)
-    found = next(own, None)
-    return found.name if found and member else members(linkage).names[member]
+    name = next(own, None)
+    return name.name if name and member else members(linkage).names[member]
 
 
 def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
     """Return the names of the bodies in each joint in which several meet, and in a cylinder's ends."""
-    found = {
+    frames = {
         name: [n for n, frame in enumerate(linkage.rigid_bodies) if name in frame] for name in linkage.by_name
     }
-    several: dict[str, list[Member]] = {name: [*numbers] for name, numbers in found.items()}
+    several: dict[str, list[Member]] = {name: [*numbers] for name, numbers in frames.items()}
     for joint in linkage.joints:
         if joint.travels and block_of(linkage, joint.name) == joint.name:
             several[joint.name].append(joint.name)
@@ -336,8 +336,8 @@ class _Balance:
 
     def lever(self, joint: Joint) -> Any:
         """Return the lever of a dyad's reactions; 0 where it vanishes to the last digits of a phase."""
-        found, least = self.motion.lever[joint.name], NO_LEVER * max(length for _, length in joint.bars)
-        return np.where(np.abs(found) <= least, 0.0, found)[()]
+        lever, least = self.motion.lever[joint.name], NO_LEVER * max(length for _, length in joint.bars)
+        return np.where(np.abs(lever) <= least, 0.0, lever)[()]
 
 
 def _bars(joint: RRR, balance: _Balance) -> None:
@@ -510,10 +510,10 @@ def _together(joint: GroupPoint, balance: _Balance) -> None:
     with np.errstate(all="ignore"):
         lost = ~(np.linalg.cond(np.where(np.isfinite(matrix), matrix, 0.0)) < 1.0 / NO_LEVER)
     even = np.where(lost[..., None, None], np.eye(rows), matrix)
-    found = np.linalg.solve(even, -right[..., None])[..., 0]
-    found = np.where(lost[..., None], np.nan, found)
+    solution = np.linalg.solve(even, -right[..., None])[..., 0]
+    solution = np.where(lost[..., None], np.nan, solution)
     for column, one in enumerate(unknown):
-        one.tell(found[..., column][()])
+        one.tell(solution[..., column][()])
     for name, member in rest.items():
         balance.meet(name, member, balance.pins[name])
 
@@ -557,8 +557,8 @@ def _at_pin(
 ) -> _Unknown:
     """Return the force of a pin on a body along an axis, for which the body that has the rest pays."""
 
-    def tell(found: Any) -> None:
-        balance.meet(name, member, _scaled(axis, found))
+    def tell(forces: Any) -> None:
+        balance.meet(name, member, _scaled(axis, forces))
 
     back = ((rest[name], place, _scaled(axis, -1.0)),) if name in rest else ()
     return _Unknown(((member, place, axis), *back), (), tell)
@@ -571,13 +571,13 @@ def _guiding(
     size_of, back = balance.linkage.longest, _scaled(normal, -1.0)
     balance.guides[name] = 0.0, 0.0
 
-    def push(found: Any) -> None:
-        balance.guides[name] = found, balance.guides[name][1]
-        balance.apply(block, place, _scaled(normal, found))
-        balance.apply(carrier, place, _scaled(back, found))
+    def push(forces: Any) -> None:
+        balance.guides[name] = forces, balance.guides[name][1]
+        balance.apply(block, place, _scaled(normal, forces))
+        balance.apply(carrier, place, _scaled(back, forces))
 
-    def turn(found: Any) -> None:
-        moment = found * size_of
+    def turn(forces: Any) -> None:
+        moment = forces * size_of
         balance.guides[name] = balance.guides[name][0], moment
         balance.couples[block] = balance.couples[block] + moment
         balance.couples[carrier] = balance.couples[carrier] - moment
@@ -592,8 +592,8 @@ def _couple(shares: tuple[tuple[Member, float], ...], gear: str, balance: _Balan
     """Return the moment of a pair of gears, or of the motor where none is named."""
     size_of = balance.linkage.longest
 
-    def tell(found: Any) -> None:
-        moment = found * size_of
+    def tell(forces: Any) -> None:
+        moment = forces * size_of
         if gear:
             balance.gears[gear] = None, None, moment
         else:
@@ -711,13 +711,13 @@ def reactions(motion: Any) -> Reactions:
 
 def _reactions(motion: Any) -> Reactions:
     balance = _balanced(motion)
-    found = _listed(balance)
+    unknowns = _listed(balance)
     ends = np.asarray(near_ends(motion)) if motion.acceleration else np.asarray(False)
-    free = np.broadcast_to(idle(motion, ends) | balance.idle, found[0].shape)
+    free = np.broadcast_to(idle(motion, ends) | balance.idle, unknowns[0].shape)
     if np.any(free):
-        for value, known in zip(found, beside(motion, free, _stacked), strict=True):
+        for value, known in zip(unknowns, beside(motion, free, _stacked), strict=True):
             value[free] = known
-    return _told(balance, found)
+    return _told(balance, unknowns)
 
 
 def _stacked(motion: Any) -> Array:
@@ -739,10 +739,10 @@ def _reach(linkage: Linkage) -> float:
     return linkage.longest + max((math.hypot(*pin.position) for pin in linkage.pins), default=0.0)
 
 
-def _told(balance: _Balance, found: list[Array]) -> Reactions:
+def _told(balance: _Balance, unknowns: list[Array]) -> Reactions:
     """Return the numbers in their places: 0 for rounding errors, infinite where they are unbounded."""
     linkage, metre, phase = balance.linkage, balance.linkage.metre, np.asarray(balance.motion.phase)
-    sizes = np.abs(found)
+    sizes = np.abs(unknowns)
     largest = np.where(np.isfinite(sizes), sizes, 0.0).max(axis=0)
     own = np.where(np.isfinite(balance.noise), balance.noise, 0.0)
     noise = np.maximum(own, ROUNDING * largest)
@@ -750,7 +750,7 @@ def _told(balance: _Balance, found: list[Array]) -> Reactions:
 
     def told(number: Any, least: Any) -> Any:
         number = np.where(nowhere, np.nan, np.where(np.isnan(number), np.inf, number))
-        value = settled(number, least)
+        value = cleaned(number, least)
         return value if np.ndim(value) else float(value)
 
     def force(least: Any = noise) -> Any:
@@ -759,7 +759,7 @@ def _told(balance: _Balance, found: list[Array]) -> Reactions:
     def moment(least: Any = noise) -> Any:
         return told(next(numbers) * metre, least * (linkage.longest * metre))
 
-    numbers = iter(found)
+    numbers = iter(unknowns)
     joints = {
         joint: {member: (force(), force()) for member in forces} for joint, forces in balance.joints.items()
     }

@@ -99,21 +99,21 @@ def changes_by_row(
 
 def own_rows(function: Callable[[Array], Array], rows: Indices, places: Array) -> Array:
     """Return the value of one row of a function at each place, a block of places at a time."""
-    found = np.empty(len(places))
+    own = np.empty(len(places))
     for first in range(0, len(places), BLOCK):
         part = slice(first, first + BLOCK)
         values = function(places[part])
-        found[part] = values[rows[part], np.arange(values.shape[1])]
-    return found
+        own[part] = values[rows[part], np.arange(values.shape[1])]
+    return own
 
 
 def _brackets(function: Callable[[Array], Array], places: Array) -> tuple[Indices, Indices, Bools]:
     """Return the row and the place before each change of sign, and whether the row is positive there."""
-    found: list[tuple[Indices, Indices, Bools]] = []
+    brackets: list[tuple[Indices, Indices, Bools]] = []
     for first in range(0, max(len(places) - 1, 1), BLOCK):
         values = function(places[first : first + BLOCK + 1])
         positive, known = values > 0, ~np.isnan(values)
         rows, index = np.nonzero((positive[:, :-1] != positive[:, 1:]) & known[:, :-1] & known[:, 1:])
-        found.append((rows, index + first, positive[rows, index]))
-    rows, index, start = (np.concatenate(parts) for parts in zip(*found, strict=True))
+        brackets.append((rows, index + first, positive[rows, index]))
+    rows, index, start = (np.concatenate(parts) for parts in zip(*brackets, strict=True))
     return rows, index, start

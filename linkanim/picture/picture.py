@@ -79,7 +79,7 @@ class Picture:
         self._aside = aside
         self.sheet, self.held = sheet, placed is not None
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
-        self._goal = self.scene.towards or self.scene
+        self._goal = self.scene.goal or self.scene
         self.type: Type = letters()
         theme = theme_of(look.theme, lit=look.material == "lit")
         self.theme: Theme = theme if look.background else on_paper(theme)
@@ -87,7 +87,7 @@ class Picture:
         placed = placed and in_unit(placed, look.unit)
         self.composition: Composition = self._composed(placed, docked, also)
         subject = self.composition.subject
-        self.figure: Figure = figure(self.scene) if scene.towards else subject.figure
+        self.figure: Figure = figure(self.scene) if scene.goal else subject.figure
         self.layout: Layout = self.composition.layout
         self.names: Names = self.composition.names
         self.fitted: View = self._of_sheet or self.composition.view
@@ -143,7 +143,7 @@ class Picture:
         """The derivatives that poses need: none while the scene turns into another and no rate is shown."""
         look, info = self.look, self._goal.info
         shown = look.vectors or look.chart or look.polygons_shown or look.centres or look.names
-        still = self.scene.towards is None or not info.full_turn or any(measured(self._goal))
+        still = self.scene.goal is None or not info.full_turn or any(measured(self._goal))
         return 2 if shown or still else 0
 
     def groups(
@@ -491,7 +491,7 @@ class Picture:
     def _ghost(self) -> Scene | None:
         if not self.look.ghost:
             return None
-        return ghost_of(self.scene) if self.scene.towards else self.composition.subject.beside
+        return ghost_of(self.scene) if self.scene.goal else self.composition.subject.beside
 
     def label_at(self, x: float, y: float) -> str | None:
         """Return the label of the row of numbers under a pixel, "" for the class; None elsewhere."""

@@ -16,8 +16,8 @@ import numpy as np
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.analysis import FourBar, four_bar_of
 from linkanim.mechanics.linkage import Body, Slide
+from linkanim.mechanics.measures import as_output, coupler_body, growth, output_body
 from linkanim.mechanics.measures import between as vector_between
-from linkanim.mechanics.measures import coupler_body, growth, output_body, said
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import sign_changes
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
@@ -270,7 +270,7 @@ def _slides(puzzle: Puzzle, slide: Slide) -> bool:
     rates = []
     for motion in (puzzle.cycle, puzzle.pose):
         apart, moving = (vector_between(vectors, ends) for vectors in (motion.position, motion.velocity))
-        rates.append(np.abs(said(motion, growth(apart, moving), "{}/s", 1)))
+        rates.append(np.abs(as_output(motion, growth(apart, moving), "{}/s", 1)))
     return bool(rates[1] > PLAIN * float(np.nanmax(rates[0])))
 
 

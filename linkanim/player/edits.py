@@ -416,7 +416,7 @@ def drop(state: State, _: None) -> State:
     return replace(state, held=None, clock=clock, editing=replace(state.editing, refusal=None))
 
 
-_SLACK = 0.01
+_TOLERANCE = 0.01
 """A pose farther from the hand than the nearest one by up to this, in sizes of the course, is as good."""
 
 
@@ -437,7 +437,7 @@ def _led(state: State, grasp: Grasp, to: tuple[float, float, float]) -> State:
         return replace(state, grasp=None)
     course, at = scene.point_path(grasp.joint), state.phase
     phase = course.nearest(
-        (to[0], to[1]), at, slack=_SLACK * max(to[2], 0.0) * course.size, forward=grasp.forward
+        (to[0], to[1]), at, tolerance=_TOLERANCE * max(to[2], 0.0) * course.size, forward=grasp.forward
     )
     clock = state.clock.go(state.frame, phase, paused=True)
     return replace(state, clock=clock, grasp=grasp.led(state.frame, phase))

@@ -40,7 +40,7 @@ class Framed(NamedTuple):
     @property
     def of_view(self) -> tuple[object, ...]:
         """What its view before zoom and pan depends on."""
-        scene = self.placed or self.scene.towards or self.scene
+        scene = self.placed or self.scene.goal or self.scene
         look = replace(self.look, theme="light", zoom=1.0, pan=(0.0, 0.0))
         return None if self.sheet else scene, look, self.docked, self.sheet, self.also
 

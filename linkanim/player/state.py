@@ -43,7 +43,7 @@ from linkanim.player.keys import (
     ModeKeys,
 )
 from linkanim.scenes import load, names
-from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_unit, passing
+from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_unit, on_the_way
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import degrees
@@ -286,7 +286,7 @@ def followed(begun: Glide | Changeover, after: Scene, frame: int) -> Glide | Cha
 def _on_the_way(begun: Glide, after: Scene, part: float) -> Scene | None:
     """Return the scene after a part of the way; None where it cannot be assembled over its whole cycle."""
     try:
-        scene = passing(
+        scene = on_the_way(
             after, {key: start + (end - start) * eased(part) for key, start, end in begun.changes}
         )
     except LinkanimError:
@@ -585,8 +585,8 @@ class Sketch(Mode, ABC):
         """Return the answer that is all of these numbers."""
 
     @abstractmethod
-    def scene_of(self, answer: Any, towards: Scene | None = None) -> Scene:
-        """Return an answer as a scene; with `towards`, one on the way to that scene."""
+    def scene_of(self, answer: Any, goal: Scene | None = None) -> Scene:
+        """Return an answer as a scene; with `goal`, one on the way to that scene."""
 
 
 @frozen
@@ -678,9 +678,9 @@ class PathSketch(Sketch):
 
         return answer_from(numbers)
 
-    def scene_of(self, answer: PathAnswer | Scene, towards: Scene | None = None) -> Scene:
-        """Return an answer as a scene; with `towards`, one on the way to that scene."""
-        return answer if isinstance(answer, Scene) else answer.scene(self.unit, towards)
+    def scene_of(self, answer: PathAnswer | Scene, goal: Scene | None = None) -> Scene:
+        """Return an answer as a scene; with `goal`, one on the way to that scene."""
+        return answer if isinstance(answer, Scene) else answer.scene(self.unit, goal)
 
 
 class SetPose(NamedTuple):
@@ -753,9 +753,9 @@ class PoseSketch(Sketch):
 
         return pose_answer_from(numbers)
 
-    def scene_of(self, answer: PoseAnswer, towards: Scene | None = None) -> Scene:
-        """Return an answer as a scene; with `towards`, one on the way to that scene."""
-        return answer.scene(self.unit, self.poses, towards)
+    def scene_of(self, answer: PoseAnswer, goal: Scene | None = None) -> Scene:
+        """Return an answer as a scene; with `goal`, one on the way to that scene."""
+        return answer.scene(self.unit, self.poses, goal)
 
 
 # The player's state: all that one frame of the window shows, as a frozen value.

@@ -257,12 +257,12 @@ def with_document(scene: Scene, document: Mapping[str, Any], check: Check | None
     return retitled(scene, scene_from(document, name=scene.name, where=scene.name, check=check))
 
 
-def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
+def on_the_way(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     """Return a scene on the way to `scene`, with these dimensions for an instant; errors as above.
 
     Where no dyad down the chain limits `scene`, none is checked: a dyad that does not close gives NaN.
     """
-    return scene_from(with_values(scene, values), name=scene.name, where=scene.name, towards=scene)
+    return scene_from(with_values(scene, values), name=scene.name, where=scene.name, goal=scene)
 
 
 def with_values(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
@@ -339,9 +339,9 @@ def _read_in(scene: Scene, unit: str) -> Scene:
     for number in (one for one in numbers(scene.document) if one.type.measure in LENGTHS):
         if not isinstance(number.written, str) or not units.split(number.written)[1]:
             document = replaced(document, number.key, f"{number.written} {scene.length_unit}")
-    towards = scene.towards and in_unit(scene.towards, unit)
+    goal = scene.goal and in_unit(scene.goal, unit)
     try:
-        found = scene_from(document, name=scene.name, where=scene.name, towards=towards)
+        found = scene_from(document, name=scene.name, where=scene.name, goal=goal)
     except BadInput as error:
         raise SceneError(f"{error}; show it in another unit") from None
     return replace(found, title=scene.title, original_title=scene.original_title)

@@ -273,18 +273,18 @@ def scene_from(
     *,
     name: str,
     where: str,
-    towards: Scene | None = None,
+    goal: Scene | None = None,
     check: Check | None = None,
 ) -> Scene:
     """Return the scene that a document describes, put together.
 
     `where` names the file in errors. Lengths are in the document's `length_unit` (mm if it has none), angles
     in radians; joints stand in the order in which they can be solved. SceneError for anything unknown,
-    missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene to
+    missing or contradictory; AssemblyError for lengths that cannot be assembled. `goal` is the scene to
     which this one is on its way, where it is shown for an instant only; `check` may refuse it before it is
     put together.
     """
-    scene, problems = read(document, name=name, where=where, towards=towards, check=check)
+    scene, problems = read(document, name=name, where=where, goal=goal, check=check)
     if scene is None or problems:
         raise problems[0]
     return scene
@@ -295,7 +295,7 @@ def read(
     *,
     name: str,
     where: str,
-    towards: Scene | None = None,
+    goal: Scene | None = None,
     check: Check | None = None,
     group: tuple[GroupPoint, ...] = (),
 ) -> tuple[Scene | None, list[BadInput]]:
@@ -308,7 +308,7 @@ def read(
     """
     top = _opened(document, where, group)
     if any(key in top for key in POSE_KEYS):
-        return _read_points(top, name=name, towards=towards, check=check)
+        return _read_points(top, name=name, goal=goal, check=check)
     top, short = _with_joints(top)
     top = top.attempt(_with_motors, _with_group(top, group), short) or top
     top = top.attempt(_settled, top, short) or top
@@ -332,7 +332,7 @@ def read(
     if any(part is None for part in parts.values()):
         return None, top.context.problems
     styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
-    parts |= {"purpose": purpose, "styles": styles, "document": document, "towards": towards}
+    parts |= {"purpose": purpose, "styles": styles, "document": document, "goal": goal}
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
     top.attempt(_check_assembly, top, scene, check)
     return scene, top.context.problems
@@ -397,7 +397,7 @@ def _nearer_side(top: Table, joint: RRR | RRP, short: Expansion) -> int:
 
 
 def _read_points(
-    top: Table, *, name: str, towards: Scene | None, check: Check | None
+    top: Table, *, name: str, goal: Scene | None, check: Check | None
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene of a file with points and links, as `read` does."""
     problems = top.context.problems
@@ -415,7 +415,7 @@ def _read_points(
     if found is None:
         return None, problems
     document, group = found
-    scene, further = read(document, name=name, where=top.where, towards=towards, check=check, group=group)
+    scene, further = read(document, name=name, where=top.where, goal=goal, check=check, group=group)
     if scene and group:
         scene = replace(scene, document=top.values)
     return scene, [*problems, *(_of_points(error, top.where) for error in further)]

@@ -113,7 +113,7 @@ class Scene:
     """What it was made for."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """The scene file as it was read, for editing and writing it back."""
-    towards: Scene | None = field(default=None, repr=False, compare=False)
+    goal: Scene | None = field(default=None, repr=False, compare=False)
     """The scene that this one, shown for an instant, is on the way to; what is told of that holds for it."""
 
     original_title: tuple[str, str] | None = field(default=None, repr=False, compare=False)
@@ -127,10 +127,10 @@ class Scene:
     @cached_property
     def mechanism(self) -> Mechanism:
         """The linkage put together; AssemblyError where it cannot be."""
-        from linkanim.mechanics.motion import mechanism, passing
+        from linkanim.mechanics.motion import mechanism, transient
 
-        free = self.towards is not None and not self.towards.mechanism.hindered
-        return passing(self.linkage) if free else mechanism(self.linkage)
+        free = self.goal is not None and not self.goal.mechanism.hindered
+        return transient(self.linkage) if free else mechanism(self.linkage)
 
     def refuse_forceless(self) -> None:
         """Raise BadInput where the scene states nothing that has a force."""
@@ -158,8 +158,8 @@ class Scene:
         """What is known of the linkage: class, input range, toggles, change points, stroke and more."""
         from linkanim.mechanics.analysis import Info
 
-        if self.towards is not None:
-            return self.towards.info
+        if self.goal is not None:
+            return self.goal.info
         return Info(self.mechanism, self.length_unit)
 
     @cached_property

@@ -594,12 +594,12 @@ class PathAnswer(NamedTuple):
         """The whole answer as one row of numbers."""
         return (*self[:4], *self.row, self.size, self.angle)
 
-    def scene(self, unit: str, towards: Scene | None = None) -> Scene:
-        """Return the linkage as a scene, or as a step `towards` another; errors as of a scene file."""
+    def scene(self, unit: str, goal: Scene | None = None) -> Scene:
+        """Return the linkage as a scene, or as a step towards `goal`; errors as of a scene file."""
         source = "made by linkanim for a path drawn in the window"
         start = self.start, self.sense
         document = document_of(FOUR_BAR, self.row, self.closure, start, source=source, length_unit=unit)
-        return scene_from(document, name=NAME, where=NAME, towards=towards)
+        return scene_from(document, name=NAME, where=NAME, goal=goal)
 
 
 def answer_of(fit: Fit) -> PathAnswer:

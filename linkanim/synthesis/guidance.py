@@ -1059,15 +1059,15 @@ class PoseAnswer(NamedTuple):
         places = self.kind.joints(row, np.array([self.closure]), np.array([[self.start]]))[0]
         return dict(zip(names, places.tolist(), strict=True))
 
-    def scene(self, unit: str, poses: Iterable[Sequence[float]], towards: Scene | None = None) -> Scene:
-        """Return the linkage as a scene, or as a step `towards` another; errors as of a scene file."""
+    def scene(self, unit: str, poses: Iterable[Sequence[float]], goal: Scene | None = None) -> Scene:
+        """Return the linkage as a scene, or as a step towards `goal`; errors as of a scene file."""
         stated = {"source": "made by linkanim for poses set in the window", "length_unit": unit}
         rows = list(poses)
         stated["title"] = f"{self.kind.name.capitalize()} through {len(rows)} poses"
         row, start = self.row[: len(self.kind.parameters)], (self.start, self.sense)
         document = document_of(self.kind, row, self.closure, start, **stated)
         document["guide"] = _stated(rows, unit)
-        return scene_from(document, name=POSES_NAME, where=POSES_NAME, towards=towards)
+        return scene_from(document, name=POSES_NAME, where=POSES_NAME, goal=goal)
 
 
 POSES_NAME = "poses"

@@ -166,7 +166,7 @@ def _smooth(base: Mechanism, solved: Mechanism) -> bool:
     """
     if solved.periods > 1 or solved.assembly.path != base.assembly.path:
         return False
-    dips = solved.assembly.chain["J"].dips
+    dips = solved.assembly.chain["J"].near_touches
     return all(dip.near is None or 2 * dip.near.root.width > SHARP for dip in dips)
 
 

@@ -222,13 +222,13 @@ def test_a_dyad_that_rounding_holds_at_its_limit_is_refused_before_it_is_looked_
 def test_where_dyads_just_fall_into_line_is_settled_of_each_once_and_at_last_of_all(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    asked, settled = list[str](), limits._settled_separation
+    asked, original = list[str](), limits._exact_extremes
 
     def noted(exact: limits.ExactWalk, name: str, phases: Array) -> Iterator[limits.Extreme]:
         asked.append(name)
-        return settled(exact, name, phases)
+        return original(exact, name, phases)
 
-    monkeypatch.setattr(limits, "_settled_separation", noted)
+    monkeypatch.setattr(limits, "_exact_extremes", noted)
     assert scene_from(row_of_dyads(4), name="row", where="row").mechanism
     assert Counter(asked).most_common(1)[0][1] <= 3
 

@@ -104,7 +104,7 @@ def test_within_the_slack_the_hand_stays_on_its_own_part_of_a_curve_that_crosses
     here, there = np.unravel_index(np.where(near, np.inf, apart).argmin(), apart.shape)
     own, other = course.phases[here], course.phases[there * step]
     place = scene.pose(float(other), 0).position[scene.trace[0]]
-    assert course.nearest(place, float(own), slack=0.05 * course.size) == pytest.approx(own, abs=0.2)
+    assert course.nearest(place, float(own), tolerance=0.05 * course.size) == pytest.approx(own, abs=0.2)
 
 
 def test_a_joint_that_does_not_move_changes_nothing() -> None:

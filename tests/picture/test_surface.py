@@ -29,7 +29,7 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Fonts
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
-from linkanim.scenes.editing import ghost_of, passing
+from linkanim.scenes.editing import ghost_of, on_the_way
 from linkanim.scenes.scene import Scene
 
 FULL = Look(vectors=frozenset("va"), chart="B.velocity")
@@ -250,7 +250,7 @@ def test_the_other_closure_takes_room_only_where_it_is_shown() -> None:
 @pytest.mark.parametrize("gone", [False, True])
 def test_the_ghost_is_the_other_closure_at_the_same_phase(gone: bool) -> None:
     scene = load("crank-rocker")
-    shown = passing(scene, {("four-bar", "crank"): 45.0}) if gone else scene
+    shown = on_the_way(scene, {("four-bar", "crank"): 45.0}) if gone else scene
     other, look = ghost_of(shown), replace(BARE, ghost=True)
     assert other is not None
     pose, (faint,) = Picture(shown, SMALL, look).poses(1.0, 2.0)
@@ -263,7 +263,7 @@ def test_the_ghost_is_the_other_closure_at_the_same_phase(gone: bool) -> None:
 @pytest.mark.parametrize("crank", [20.0, 45.0])
 def test_a_scene_on_the_way_is_seen_in_the_view_of_the_one_it_becomes(crank: float) -> None:
     scene = load("crank-rocker")
-    shown = passing(scene, {("four-bar", "crank"): crank})
+    shown = on_the_way(scene, {("four-bar", "crank"): crank})
     picture = Picture(shown, SMALL, BARE)
     assert picture.view == Picture(scene, SMALL, BARE).view
     assert picture.figure.scene is shown

@@ -13,7 +13,7 @@ from linkanim.player.edits import renewed
 from linkanim.player.shown import overlay
 from linkanim.player.state import EVERY, FLASH_FRAMES, MOVE_FRAMES, Changeover, State, begin, chosen, closes
 from linkanim.scenes import load
-from linkanim.scenes.editing import dimensions, passing
+from linkanim.scenes.editing import dimensions, on_the_way
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -375,7 +375,7 @@ def test_a_change_begins_and_ends_gently(crank: State) -> None:
     assert steps == pytest.approx(steps[::-1])
 
 
-def on_the_way(name: str, choose: int, steps: int) -> State:
+def nudged_on(name: str, choose: int, steps: int) -> State:
     """Return a scene some frames after its chosen dimension was nudged."""
     state = after(begin(load(name)), "edit", Action("choose", choose), Action("nudge", steps))
     for _ in range(MOVE_FRAMES // 2):
@@ -387,7 +387,7 @@ def on_the_way(name: str, choose: int, steps: int) -> State:
 # Chains with and without dyads beyond the first loop, and one whose second loop limits its input.
 @pytest.mark.parametrize(("name", "choose"), [("crank-rocker", 1), ("press", 0), ("six-bar", 2)])
 def test_a_scene_on_the_way_is_solved_as_exactly_as_any(name: str, choose: int) -> None:
-    shown = on_the_way(name, choose, 2).shown
+    shown = nudged_on(name, choose, 2).shown
     again = scene_from(shown.document, name=name, where=name)
     for phase in (0.0, 1.0, 4.0):
         pose, same = shown.pose(phase), again.pose(phase)
@@ -397,7 +397,7 @@ def test_a_scene_on_the_way_is_solved_as_exactly_as_any(name: str, choose: int) 
 
 
 def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    state = on_the_way("press", 0, 1)
+    state = nudged_on("press", 0, 1)
     assert state.shown.info is state.scene.info
 
     def never(*_: object) -> None:
@@ -417,15 +417,15 @@ def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Both in one frame would take longer than a frame has."""
-    state = on_the_way("press", 0, 1)
+    state = nudged_on("press", 0, 1)
     worked: list[int] = []
     drawn: list[int] = []
 
     def recorded(*given: Any) -> Scene:
         worked.append(state.frame)
-        return passing(*given)
+        return on_the_way(*given)
 
-    monkeypatch.setattr("linkanim.player.state.passing", recorded)
+    monkeypatch.setattr("linkanim.player.state.on_the_way", recorded)
     while state.glide:
         before, state = state.shown, advance(state)
         drawn += [state.frame] if state.shown is not before else []
@@ -436,8 +436,8 @@ def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
 
 def test_a_way_past_lengths_that_do_not_close_leaves_them_out() -> None:
     press = load("press")
-    assert closes(passing(press, {("joints", "C", "length"): 300}))
-    assert not closes(passing(press, {("joints", "C", "length"): 5}))
+    assert closes(on_the_way(press, {("joints", "C", "length"): 300}))
+    assert not closes(on_the_way(press, {("joints", "C", "length"): 5}))
 
 
 @pytest.mark.slow

@@ -168,7 +168,7 @@ def test_a_point_of_the_stroke_takes_its_neighbours_along_and_the_linkage_follow
     assert (led.scene.document["joints"]["A"]["length"], sketch_of(led).off) == (30.0, 0.4)
     let_go = after(led, "let_go")
     assert [effect.name for effect in let_go.effects] == ["search"]
-    assert (let_go.scene.towards, let_go.scene) == (None, led.scene)
+    assert (let_go.scene.goal, let_go.scene) == (None, led.scene)
 
 
 def test_a_pivot_that_is_dragged_is_held_where_it_was_put(answered: State) -> None:

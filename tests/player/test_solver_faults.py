@@ -117,7 +117,7 @@ def test_a_scene_that_cannot_be_solved_is_not_put_on(
 
 def test_a_way_that_fails_is_left_out(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
     state = advance(crank, [Action("nudge", 1)])
-    monkeypatch.setattr("linkanim.player.state.passing", raising(HOLES[0]))
+    monkeypatch.setattr("linkanim.player.state.on_the_way", raising(HOLES[0]))
     after = advance(state)
     assert (after.glide, after.shown) == (None, state.scene)
     assert [effect.name for effect in after.effects] == ["report"]

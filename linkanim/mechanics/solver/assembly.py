@@ -43,9 +43,9 @@ def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop
 
     A loop that limits a geared crank is left to the general closure.
     """
-    found = ((joint.name, CLOSERS[type(joint)].loop(joint, linkage, gears)) for joint in linkage.joints)
+    loops = ((joint.name, CLOSERS[type(joint)].loop(joint, linkage, gears)) for joint in linkage.joints)
     own = linkage.drive.joint
-    return {name: loop for name, loop in found if loop and (loop.pin == own or not loop.limits)}
+    return {name: loop for name, loop in loops if loop and (loop.pin == own or not loop.limits)}
 
 
 def precise(assembly: Assembly) -> Assembly:
@@ -65,12 +65,12 @@ def _named(assemblies: Iterable[Assembly]) -> Assembly:
     Where another joint's side names a dyad but is the same for all signs, the first signs of the first
     assembly are taken: the name is then read as the dyad's own side.
     """
-    found = [
+    choices = [
         replace(assembly, signs=signs)
         for assembly in assemblies
         for signs in _sign_choices(assembly.linkage, assembly.loops, assembly.path)
     ]
-    return next((assembly for assembly in found if _is_as_named(assembly)), found[0])
+    return next((assembly for assembly in choices if _is_as_named(assembly)), choices[0])
 
 
 def _scale(linkage: Linkage) -> float:

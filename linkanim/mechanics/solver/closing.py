@@ -194,7 +194,7 @@ class End:
 
 @frozen
 class Stationary:
-    """A change point, or a dip: z is the sine of half the distance from it, the argument the tangent of that.
+    """A change point or a near touch: z is the sine of half the distance from it, the argument its tangent.
 
     `place` is an angle for an input that turns, a phase for one that swings: there the dyads before this one
     may be on different closures on the two ways. `amplitude` is that of the swing. The place repeats after
@@ -285,12 +285,12 @@ class Touch(Stationary):
     """A change point: the margin touches zero, and the root changes its sign."""
 
 
-class Dip(Stationary):
+class NearTouch(Stationary):
     """A place where the margin comes near zero, and turns back."""
 
 
 Zero = End | Touch
-Fitted = Zero | Dip
+Fitted = Zero | NearTouch
 
 
 class Closing(NamedTuple):
@@ -360,7 +360,7 @@ class ChainRoot:
     zeros: tuple[Zero, ...]
     least: float
     sign: float = 1.0
-    dips: tuple[Dip, ...] = ()
+    near_touches: tuple[NearTouch, ...] = ()
 
     @property
     def change_points(self) -> Iterator[Sum]:
@@ -373,16 +373,16 @@ class ChainRoot:
         plain = plain_root(margin, 1.0, closing.separation, closing.half_difference)
         away = [zero.distance(state) for zero in self.zeros]
         side, others = self._sides(away)
-        found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
+        root = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
         if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:
-            found = found.with_lift(Reduced(closing.across, found.q))
-        for dip in self.dips:
-            if dip.near is not None:
-                found = _beside(dip, dip.near, closing, (dip.distance(state), side), found)
+            root = root.with_altitude(Reduced(closing.across, root.q))
+        for near_touch in self.near_touches:
+            if near_touch.near is not None:
+                root = _beside(near_touch, near_touch.near, closing, (near_touch.distance(state), side), root)
         for zero, there in zip(self.zeros, zip(away, others, strict=True), strict=True):
             if zero.near is not None:
-                found = _beside(zero, zero.near, closing, there, found)
-        return found
+                root = _beside(zero, zero.near, closing, there, root)
+        return root
 
     def side(self, state: InputState) -> Value:
         """Return the sign of the closure on the smooth path."""
@@ -411,18 +411,20 @@ def _beside(
     def chosen(close: Value, otherwise: Value) -> Value:
         return zero.chosen(distance, near.root.width, close, otherwise)
 
-    found = SignedRoot(
+    root = SignedRoot(
         chosen(q.value * others, far.q),
         Slope(chosen(rho.value * others, far.ratio.value), chosen(rho.rate * others, far.ratio.rate)),
     )
-    if far.lift is None:
-        return found
+    if far.altitude is None:
+        return root
     if near.across is None:
-        return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
+        return root.with_altitude(Reduced(far.altitude.across, chosen(q.value * others, far.altitude.q)))
     reduced = _vector(*(fit.at(distance.argument) for fit in near.across))
-    points = [Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)]
-    return found.with_lift(
-        Reduced(MovingPoint(*points), chosen(fitted.value * distance.share * others, far.lift.q))
+    points = [
+        Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.altitude.across, strict=True)
+    ]
+    return root.with_altitude(
+        Reduced(MovingPoint(*points), chosen(fitted.value * distance.share * others, far.altitude.q))
     )
 
 
@@ -615,7 +617,7 @@ class Walk:
         margin = closing.u * closing.w
         if isinstance(margin, float) and margin <= 0:
             # Its end keeps its distance from the line, so its factors are plain numbers instead of formulas.
-            raise AssemblyError(f"joint {name}: {self._why_shut(name, closing)}")
+            raise AssemblyError(f"joint {name}: {self._why_not(name, closing)}")
         self.closings[name] = closing
         root = self.assembly.chain.get(name)
         if root is not None and self.mover:
@@ -639,7 +641,7 @@ class Walk:
         self.pieces[n] = Piece(turning, self.pieces[n].arms)
         self.points[name] = pivot + carried(place - pivot.position, turning)
 
-    def _why_shut(self, name: str, closing: Closing) -> str:
+    def _why_not(self, name: str, closing: Closing) -> str:
         """Say why a dyad whose factors do not change has no two closures."""
         u, w = closing.u, closing.w
         if not (isinstance(u, float) and isinstance(w, float) and u * w < 0):
@@ -799,10 +801,10 @@ def place_point(point: Rigid, walk: Walk) -> None:
 
 def loop_of_bars(joint: RRR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
     """Return the loop of a crank pin against a fixed pin."""
-    found = pin_against_pin(linkage, gears, joint.ends)
-    if found is None:
+    loop = pin_against_pin(linkage, gears, joint.ends)
+    if loop is None:
         return None
-    crank, ground, swapped = found
+    crank, ground, swapped = loop
     root = four_bar_root(ground.exact, crank.length, _turned(joint, swapped)[1], ground.angle)
     return Loop(crank.name, crank, gears[crank.name], ground, root, swapped)
 
@@ -821,7 +823,7 @@ def close_bars(joint: RRR, walk: Walk) -> None:
         across = q - p
         root = walk.span_root(joint.name, across, lengths).times(sign)
         triangle = moving_triangle(across, lengths, root)
-    walk.levers[joint.name] = triangle.across.cross(triangle.lift) * (
+    walk.levers[joint.name] = triangle.across.cross(triangle.altitude) * (
         (-1.0 if swapped else 1.0) / joint.lengths[1]
     )
     walk.points[joint.name], *bars = _meet(p, q, lengths, triangle)
@@ -849,12 +851,12 @@ def _meet(
     """
     d, t, rho = triangle.across, triangle, triangle.ratio
     if usual(lengths[0]) < usual(lengths[1]):
-        arm_a = d.scaled(t.near) + t.lift
+        arm_a = d.scaled(t.near) + t.altitude
         arm_b = arm_a - d
         turning_b = t.turn_of_longer(True)
         turning_a = turning_b.plus(-rho.value, -rho.rate)
         return p + carried(arm_a, turning_a), (turning_a, arm_a), (turning_b, arm_b)
-    arm_b = t.lift - d.scaled(t.far)
+    arm_b = t.altitude - d.scaled(t.far)
     arm_a = arm_b + d
     turning_a = t.turn_of_longer(False)
     turning_b = turning_a.plus(rho.value, rho.rate)
@@ -919,10 +921,10 @@ def slider_name(joint: RRP, assembly: Assembly) -> str:
 
 def loop_of_slot(joint: RPR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
     """Return the loop of a crank pin and a fixed pin, one in the slot and one the pivot."""
-    found = pin_against_pin(linkage, gears, (joint.through, joint.pivot))
-    if found is None:
+    loop = pin_against_pin(linkage, gears, (joint.through, joint.pivot))
+    if loop is None:
         return None
-    crank, ground, swapped = found
+    crank, ground, swapped = loop
     root = slot_root(ground.exact, crank.length, joint.offset, ground.angle)
     return Loop(crank.name, crank, gears[crank.name], ground, root, swapped)
 
@@ -939,7 +941,7 @@ def close_slot(joint: RPR, walk: Walk) -> None:
         across = pin - pivot
         root = walk.slot_root(joint.name, across, joint.offset).times(sign)
         turn = moving_triangle(across, (0.0, 0.0), root).turn
-        reduced = root.lift or Reduced(across, root.q)
+        reduced = root.altitude or Reduced(across, root.q)
         direction = _direction(reduced.across.position, reduced.q, joint.offset)
     walk.levers[joint.name] = root.q
     turning = _turning_kinds(turn, root, joint.offset) if joint.offset else turn

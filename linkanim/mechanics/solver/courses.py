@@ -122,18 +122,22 @@ class InputRoute(NamedTuple):
     """The input at its lower and its upper limit."""
 
 
-def route_of(linkage: Linkage, system: LinkEquations, found: Followed) -> InputRoute:
+def route_of(linkage: Linkage, system: LinkEquations, followed: Followed) -> InputRoute:
     """Return the path of a linkage's input and its branches, from the closure that was followed."""
-    first, last = found.places[0], found.places[-1]
+    first, last = followed.places[0], followed.places[-1]
     end = last.y + wrapped(first.y - last.y, system.links)
-    y = np.array([*(place.y for place in found.places), end])
-    tangents = np.array([*(place.tangent for place in found.places), first.tangent])
+    y = np.array([*(place.y for place in followed.places), end])
+    tangents = np.array([*(place.tangent for place in followed.places), first.tangent])
     drive, group = linkage.drive, group_of(linkage)
     assert group is not None
-    if not found.limits:
-        return InputRoute(Turn(drive.start, round(found.change / math.tau)), (PathBranch(y, tangents),))
-    ends = [limit_beside(system, *_between(system, y, tangents, n)) for n in found.limits]
-    (high, stop), (low, back), offset = (ends[0], found.limits[0]), (ends[-1], found.limits[-1]), end - y[0]
+    if not followed.limits:
+        return InputRoute(Turn(drive.start, round(followed.change / math.tau)), (PathBranch(y, tangents),))
+    ends = [limit_beside(system, *_between(system, y, tangents, n)) for n in followed.limits]
+    (high, stop), (low, back), offset = (
+        (ends[0], followed.limits[0]),
+        (ends[-1], followed.limits[-1]),
+        end - y[0],
+    )
     bottom, top = in_floats(low.y), in_floats(high.y)
     up = PathBranch(
         np.vstack([bottom - offset, y[back:-1] - offset, y[:stop], top]),
@@ -285,7 +289,7 @@ class _Fit:
         """Return the quantities' names and the pieces in order."""
         places = sum(len(branch.y) for branch in self.route.branches)
         depth = max(math.ceil(math.log2(places)) - 1, 3)
-        waiting, found = [(depth, part) for part in range(1 << depth)], list[MotionPiece]()
+        waiting, pieces = [(depth, part) for part in range(1 << depth)], list[MotionPiece]()
         if len(self.route.branches) == 1 and not isinstance(self.route.path, Turn):
             waiting = [one for one in waiting if one[1] >= 1 << depth - 1]
         while waiting:
@@ -293,7 +297,7 @@ class _Fit:
             waiting = []
             for piece in fitted:
                 if _is_close(piece):
-                    found.append(piece)
+                    pieces.append(piece)
                 elif piece.depth == _FINEST:
                     raise AssemblyError(
                         "its links come so near to a change point that no float tells their two closures"
@@ -302,8 +306,8 @@ class _Fit:
                 else:
                     waiting += [(piece.depth + 1, 2 * piece.part + n) for n in (0, 1)]
         if len(self.route.branches) == 1 and not isinstance(self.route.path, Turn):
-            found += [_mirrored(piece) for piece in found]
-        return self.names, sorted(found, key=lambda piece: piece.part / (1 << piece.depth))
+            pieces += [_mirrored(piece) for piece in pieces]
+        return self.names, sorted(pieces, key=lambda piece: piece.part / (1 << piece.depth))
 
     def _fitted(self, parts: Sequence[tuple[int, int]]) -> list[MotionPiece]:
         places, inverse = _inverse_powers()
@@ -314,8 +318,8 @@ class _Fit:
             for place in places
         ]
         values = self._solved(np.array(phases, np.object_)).reshape(-1, len(parts), COUNT)
-        found = np.einsum("qpk,ck->pqc", values, inverse) >> BITS
-        return [MotionPiece(*part, coefficients) for part, coefficients in zip(parts, found, strict=True)]
+        fitted = np.einsum("qpk,ck->pqc", values, inverse) >> BITS
+        return [MotionPiece(*part, coefficients) for part, coefficients in zip(parts, fitted, strict=True)]
 
     def _solved(self, phases: Whole) -> Whole:
         """Return the quantities (q, N) at phases within half a period of zero."""
@@ -375,12 +379,12 @@ class _Fit:
 
     def _guessed(self, phases: Array, inputs: Array) -> Array:
         """Return the unknowns (N, m) near the solutions, by cubics between the places that were followed."""
-        found = np.empty((len(phases), self.system.size))
+        guess = np.empty((len(phases), self.system.size))
         for n, branch in enumerate(self.route.branches):
             own = np.ones(len(phases), bool) if len(self.route.branches) == 1 else (phases < 0) == (n == 1)
-            found[own] = _on_branch(branch, inputs[own])
-        found[:, -1] = inputs
-        return found
+            guess[own] = _on_branch(branch, inputs[own])
+        guess[:, -1] = inputs
+        return guess
 
 
 PI_WHOLE = int(Fraction("3.14159265358979323846264338327950288419716939937510582097494459") * ONE)
@@ -399,13 +403,13 @@ def _on_branch(branch: PathBranch, inputs: Array) -> Array:
     def cubic(share: Array, n: NDArray[np.intp], column: Any) -> Array:
         s = share if share.ndim == np.ndim(y[n, column]) else share[:, None]
         rest = 1 - s
-        found: Array = (
+        values: Array = (
             y[n, column]
             + ways[n, column] * s * s * (3 - 2 * s)
             + first[n, column] * s * rest * rest
             - last[n, column] * s * s * rest
         )
-        return found
+        return values
 
     low, high = np.zeros(len(inputs)), np.ones(len(inputs))
     for _ in range(40):

@@ -99,13 +99,13 @@ class LinkEquations:
     @cached_property
     def start(self) -> Array:
         """The unknowns in the pose."""
-        found = np.zeros(self.size)
+        y = np.zeros(self.size)
         for n, frame in enumerate(self.frames):
-            found[3 * n : 3 * n + 3] = frame.origin.real, frame.origin.imag, frame.angle
+            y[3 * n : 3 * n + 3] = frame.origin.real, frame.origin.imag, frame.angle
         for n, slot in enumerate(self.slots):
-            found[3 * self.links + n] = slot.travel
-        found[-1] = self.at
-        return found
+            y[3 * self.links + n] = slot.travel
+        y[-1] = self.at
+        return y
 
     @cached_property
     def _matrices(self) -> tuple[Loops, Loops, Loops, Array]:
@@ -150,25 +150,29 @@ class LinkEquations:
         rows, on, direction = self._slides
         units = self._units(y)
         o = y[:, 0 : 3 * self.links : 3] + 1j * y[:, 1 : 3 * self.links : 3]
-        found = o @ places.T + units @ turns.T
-        found[:, rows] -= self._travels(y) * direction * units[:, on]
-        return np.concatenate([found.real, found.imag, (y - self.start) @ linear.T], axis=1)
+        errors = o @ places.T + units @ turns.T
+        errors[:, rows] -= self._travels(y) * direction * units[:, on]
+        return np.concatenate([errors.real, errors.imag, (y - self.start) @ linear.T], axis=1)
 
     def jacobian(self, y: Array) -> Array:
         """Return the derivatives of F at unknowns (N, m): (N, m - 1, m)."""
         places, turns, _, linear = self._matrices
         rows, on, direction = self._slides
         units, links, count = self._units(y), self.links, len(self.terms)
-        found = np.zeros((len(y), count, self.size), complex)
-        found[:, :, 0 : 3 * links : 3] = places
-        found[:, :, 1 : 3 * links : 3] = 1j * places
+        slopes = np.zeros((len(y), count, self.size), complex)
+        slopes[:, :, 0 : 3 * links : 3] = places
+        slopes[:, :, 1 : 3 * links : 3] = 1j * places
         by_turn = 1j * turns * units[:, None, :]
         along = direction * units[:, on]
         by_turn[:, rows, on] -= 1j * self._travels(y) * along
-        found[:, :, 2 : 3 * links : 3] = by_turn[:, :, :links]
-        found[:, rows, 3 * links + np.arange(len(rows))] = -along
+        slopes[:, :, 2 : 3 * links : 3] = by_turn[:, :, :links]
+        slopes[:, rows, 3 * links + np.arange(len(rows))] = -along
         whole = np.empty((len(y), self.size - 1, self.size))
-        whole[:, :count], whole[:, count : 2 * count], whole[:, 2 * count :] = found.real, found.imag, linear
+        whole[:, :count], whole[:, count : 2 * count], whole[:, 2 * count :] = (
+            slopes.real,
+            slopes.imag,
+            linear,
+        )
         return whole
 
     def bend(self, y: Array, v: Array) -> Array:
@@ -177,14 +181,14 @@ class LinkEquations:
         rows, on, direction = self._slides
         units, links = self._units(y[None])[0], self.links
         turn = np.append(v[2 : 3 * links : 3], 0.0)
-        found = np.zeros((len(self.terms), self.size), complex)
+        slopes = np.zeros((len(self.terms), self.size), complex)
         by_turn = -turns * (units * turn)
         along = direction * units[on]
         by_turn[rows, on] += along * self._travels(y[None])[0] * turn[on]
         by_turn[rows, on] -= 1j * along * v[3 * links : self.size - 1]
-        found[:, 2 : 3 * links : 3] = by_turn[:, :links]
-        found[rows, 3 * links + np.arange(len(rows))] = -1j * along * turn[on]
-        return np.concatenate([found.real, found.imag, np.zeros((len(self.linear), self.size))])
+        slopes[:, 2 : 3 * links : 3] = by_turn[:, :links]
+        slopes[rows, 3 * links + np.arange(len(rows))] = -1j * along * turn[on]
+        return np.concatenate([slopes.real, slopes.imag, np.zeros((len(self.linear), self.size))])
 
     def change(self, y: Array, away: Array) -> Array:
         """Return bounds on how J changes, (rows, m) by complex row, where y moves by at most `away`."""
@@ -193,12 +197,12 @@ class LinkEquations:
         links = self.links
         turn = np.append(away[2 : 3 * links : 3], 0.0)
         travel, more = np.abs(y[3 * links : self.size - 1]), away[3 * links : self.size - 1]
-        found = np.zeros((len(self.terms), self.size))
+        slopes = np.zeros((len(self.terms), self.size))
         by_turn = turns * turn
         by_turn[rows, on] += (travel + more) * turn[on] + np.where(on < links, more, 0.0)
-        found[:, 2 : 3 * links : 3] = by_turn[:, :links]
-        found[rows, 3 * links + np.arange(len(rows))] = turn[on]
-        return found
+        slopes[:, 2 : 3 * links : 3] = by_turn[:, :links]
+        slopes[rows, 3 * links + np.arange(len(rows))] = turn[on]
+        return slopes
 
     def third(self, y: Array, rate: Array, step: float) -> Array:
         """Return bounds on the third derivatives of F along a step, by complex row; `rate` is the size."""
@@ -206,10 +210,10 @@ class LinkEquations:
         rows, on, _ = self._slides
         links = self.links
         turn = np.append(rate[2 : 3 * links : 3], 0.0)
-        found: Array = turns @ turn**3
+        bend: Array = turns @ turn**3
         travel, more = np.abs(y[3 * links : self.size - 1]), rate[3 * links : self.size - 1]
-        np.add.at(found, rows, (travel + step * more) * turn[on] ** 3 + 3 * more * turn[on] ** 2)
-        return found
+        np.add.at(bend, rows, (travel + step * more) * turn[on] ** 3 + 3 * more * turn[on] ** 2)
+        return bend
 
 
 # The same equations in fixed point with 38 digits.
@@ -291,18 +295,18 @@ class FixedPoint:
     @cached_property
     def _points(self) -> dict[tuple[int | None, str], Pair]:
         own = self.system
-        found: dict[tuple[int | None, str], Pair] = {
+        points: dict[tuple[int | None, str], Pair] = {
             (None, name): (_fixed(x), _fixed(y)) for name, (x, y) in own.fixed.items()
         }
         for n, frame in enumerate(own.frames):
-            found |= {(n, name): (_fixed(x), _fixed(y)) for name, (x, y) in frame.points.items()}
-        return found
+            points |= {(n, name): (_fixed(x), _fixed(y)) for name, (x, y) in frame.points.items()}
+        return points
 
     @cached_property
     def _directions(self) -> dict[int, Pair]:
         with localcontext(context()):
-            found = {row: sides(angle) for row, (_, _, angle, _) in self.system.asides.items()}
-            return {row: (int(cosine * ONE), int(sine * ONE)) for row, (sine, cosine) in found.items()}
+            directions = {row: sides(angle) for row, (_, _, angle, _) in self.system.asides.items()}
+            return {row: (int(cosine * ONE), int(sine * ONE)) for row, (sine, cosine) in directions.items()}
 
     def units(self, y: Whole) -> list[Pair]:
         """Return e^{iψ} of all links."""
@@ -549,7 +553,7 @@ class Followed(NamedTuple):
     limits: tuple[int, ...]
 
 
-def settled(system: LinkEquations, y: Array) -> Array:
+def corrected_at_input(system: LinkEquations, y: Array) -> Array:
     """Return the unknowns corrected at their input; AssemblyError where the pose is at a limit."""
     at = y[None].copy()
     for _ in range(8):
@@ -568,13 +572,13 @@ def settled(system: LinkEquations, y: Array) -> Array:
 
 def followed(system: LinkEquations) -> Followed:
     """Follow the closure from the pose until it is back; AssemblyError where it cannot be followed."""
-    start = settled(system, system.start)
-    towards = np.zeros(system.size)
-    towards[-1] = 1.0
+    start = corrected_at_input(system, system.start)
+    direction = np.zeros(system.size)
+    direction[-1] = 1.0
     places, limits, step = list[PathPlace](), list[int](), _FIRST
     y = start
     for _ in range(_MOST_STEPS):
-        inverse = _inverse(system, y, towards)
+        inverse = _inverse(system, y, direction)
         tangent = inverse[:, -1] / np.linalg.norm(inverse[:, -1])
         if places and tangent[-1] * places[-1].tangent[-1] < 0:
             limits.append(len(places))
@@ -582,25 +586,25 @@ def followed(system: LinkEquations) -> Followed:
         if step < NO_STEP:
             across, step = _crossed(system, y, tangent)
             places.append(PathPlace(y, tangent, step))
-            y, towards = across, tangent
+            y, direction = across, tangent
             continue
         places.append(PathPlace(y, tangent, step))
         if len(places) > 2 and (change := _back(y, tangent, step, box, start, system.links)) is not None:
             if tangent[-1] < 0:
                 limits.append(len(places))
             return Followed(tuple(places), change, tuple(limits))
-        y, towards = _corrected(system, y + step * tangent, inverse), tangent
+        y, direction = _corrected(system, y + step * tangent, inverse), tangent
     raise AssemblyError("its links do not come back to their pose; hold those that slide without end")
 
 
-def _inverse(system: LinkEquations, y: Array, towards: Array) -> Array:
+def _inverse(system: LinkEquations, y: Array, direction: Array) -> Array:
     """Return the inverse of F's derivatives bordered by a direction; its last column is the tangent."""
-    bordered = np.concatenate([system.jacobian(y[None])[0], towards[None]])
+    bordered = np.concatenate([system.jacobian(y[None])[0], direction[None]])
     try:
-        found: Array = np.linalg.inv(bordered)
+        inverse: Array = np.linalg.inv(bordered)
     except np.linalg.LinAlgError:  # a pose at a change point, which is taken for one beside it
-        found = np.linalg.pinv(bordered)
-    return found
+        inverse = np.linalg.pinv(bordered)
+    return inverse
 
 
 def _crossed(system: LinkEquations, y: Array, tangent: Array) -> tuple[Array, float]:
@@ -667,10 +671,10 @@ def _turns_once(
 
     def carried(of: Array, begin: Array) -> Array:
         """Return a bound on x where x ≤ begin + M (of + x), M the change of the inverse times F's."""
-        found = begin
+        vector = begin
         for _ in range(_BOUNDED):
-            found = begin + sized @ (changed @ (of + found))
-        return found + (found - begin) * 0.5
+            vector = begin + sized @ (changed @ (of + vector))
+        return vector + (vector - begin) * 0.5
 
     first = carried(size, np.zeros_like(size))
     if size[-1] > first[-1]:

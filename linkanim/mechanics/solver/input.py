@@ -407,11 +407,11 @@ class InputPath(ABC):
 
     def distinct(self, places: Iterable[float]) -> tuple[float, ...]:
         """Return places of the input, angles within one turn, each once, the least first."""
-        found: list[float] = []
+        inputs: list[float] = []
         for place in sorted(math.remainder(place, 2 * math.pi) % (2 * math.pi) for place in places):
-            if not any(self.same(place, other) for other in found):
-                found.append(place)
-        return tuple(found)
+            if not any(self.same(place, other) for other in inputs):
+                inputs.append(place)
+        return tuple(inputs)
 
 
 @frozen
@@ -595,8 +595,8 @@ class Swing(ThereAndBack):
     @property
     def amplitude(self) -> float:
         """Half the angle of the swing."""
-        found: float = half_way(self.low, self.high)
-        return found
+        half: float = half_way(self.low, self.high)
+        return half
 
     @property
     def limits(self) -> tuple[float, ...]:

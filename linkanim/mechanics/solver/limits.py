@@ -33,10 +33,10 @@ from linkanim.mechanics.solver.closing import (
     Assembly,
     ChainRoot,
     Closing,
-    Dip,
     End,
     Fitted,
     Near,
+    NearTouch,
     PolynomialFit,
     Stationary,
     Touch,
@@ -106,7 +106,7 @@ NUDGE = Decimal(10) ** -15
 CONVERGED = Decimal(10) ** -25
 POINTS = 20
 POINTS_OF_A_DIP = 32
-"""Samples of a dip's fit, which has to hold as far as the margin lacks digits: that may be far."""
+"""Samples of a near touch's fit, which has to hold as far as the margin lacks digits: that may be far."""
 WIDEST = 0.5
 TRIES = 16
 
@@ -161,8 +161,8 @@ def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float,
 
     def extreme(phase: float) -> tuple[Sum, float, float]:
         with localcontext(context()):
-            found = _newton(Sum(phase), lambda place: _steps(run, place)[1])
-            place = Decimal(phase) if found is None else found
+            root = _newton(Sum(phase), lambda place: _steps(run, place)[1])
+            place = Decimal(phase) if root is None else root
             margin, gap = run(place)
             bend = sum(run(place + nudge)[0] for nudge in (-NUDGE, NUDGE)) - 2 * margin
             reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
@@ -212,36 +212,50 @@ def fitted(assembly: Assembly) -> Assembly:
 def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
     with localcontext(context()):
         zeros = [_with_stretch(exact.assembly, name, zero) for zero in root.zeros]
-        dips = _settled(exact, name, root.dips)
+        near_touches = _exact_near_touches(exact, name, root.near_touches)
         samplers = _samplers(exact, name)
         return replace(
             root,
             zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in zeros),
-            dips=tuple(replace(dip, near=_near_dip(name, dip, dips, *samplers(dip))) for dip in dips),
+            near_touches=tuple(
+                replace(near_touch, near=_near_a_touch(name, near_touch, near_touches, *samplers(near_touch)))
+                for near_touch in near_touches
+            ),
         )
 
 
-def _near_dip(
-    name: str, dip: Dip, dips: Sequence[Dip], sampled: Callable[[Decimal], Sample], width: float
+def _near_a_touch(
+    name: str,
+    near_touch: NearTouch,
+    near_touches: Sequence[NearTouch],
+    sampled: Callable[[Decimal], Sample],
+    width: float,
 ) -> Near | None:
-    """Fit next to a dip, at the most half-way to the next one: where both are as low, R is 0 at the other.
+    """Fit next to a near touch, at most half-way to the next one: where both are as low, R is 0 at the other.
 
     One so near that no fit would be left counts as the same.
     """
-    period = 2 * math.pi * dip.turns
-    apart = (abs(math.remainder(float(one.place - dip.place), period)) for one in dips if one is not dip)
-    half_ways = (math.tan(distance / (4 * dip.turns)) for distance in apart)
-    return _near(name, dip, sampled, min([width, *(one for one in half_ways if one >= NARROWEST)]))
+    period = 2 * math.pi * near_touch.turns
+    apart = (
+        abs(math.remainder(float(one.place - near_touch.place), period))
+        for one in near_touches
+        if one is not near_touch
+    )
+    half_ways = (math.tan(distance / (4 * near_touch.turns)) for distance in apart)
+    return _near(name, near_touch, sampled, min([width, *(one for one in half_ways if one >= NARROWEST)]))
 
 
-def _settled(exact: ExactWalk, name: str, dips: Sequence[Dip]) -> list[Dip]:
-    """Return the dips moved to the exact extremes, which floats found to half their digits."""
-    if not dips:
+def _exact_near_touches(exact: ExactWalk, name: str, near_touches: Sequence[NearTouch]) -> list[NearTouch]:
+    """Return the near touches moved to the exact extremes, which floats found to half their digits."""
+    if not near_touches:
         return []
     extreme = extremes(exact, name)
-    starts = [_start(exact.assembly.path, dip) for dip in dips]
-    places = [extreme(float(dip.place - start))[0] + start for dip, start in zip(dips, starts, strict=True)]
-    return [replace(dip, place=place) for dip, place in zip(dips, places, strict=True)]
+    starts = [_start(exact.assembly.path, near_touch) for near_touch in near_touches]
+    places = [
+        extreme(float(near_touch.place - start))[0] + start
+        for near_touch, start in zip(near_touches, starts, strict=True)
+    ]
+    return [replace(near_touch, place=place) for near_touch, place in zip(near_touches, places, strict=True)]
 
 
 def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
@@ -274,24 +288,26 @@ def _near(name: str, zero: Fitted, sampled: Callable[[Decimal], Sample], width: 
     """
     zeroth, best, least = sampled(Decimal(0)), None, TOLERABLE
     narrowest = NARROWEST_AT_A_LIMIT if isinstance(zero, End) else NARROWEST
-    points = POINTS_OF_A_DIP if isinstance(zero, Dip) else POINTS
+    points = POINTS_OF_A_DIP if isinstance(zero, NearTouch) else POINTS
     for _ in range(TRIES):
         half = width / 2 if isinstance(zero, End) else width
         stretch = width, half if isinstance(zero, End) else 0.0, half
         samples = [sampled(Decimal(stretch[1]) + Decimal(half) * node) for node in nodes(points)]
         squares = _squares(samples, zeroth.margin)
-        root = _fit(stretch, samples, squares if isinstance(zero, Dip) else [one.sqrt() for one in squares])
-        meeting = not isinstance(zero, Dip) and _meet(zeroth.across, samples)
+        root = _fit(
+            stretch, samples, squares if isinstance(zero, NearTouch) else [one.sqrt() for one in squares]
+        )
+        meeting = not isinstance(zero, NearTouch) and _meet(zeroth.across, samples)
         shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
         fits = [root, *(_fit(stretch, samples, values) for values in shares)]
         last = max(_last(fits[:1]), _last(fits[1:]))
         if last <= least and width >= narrowest:
-            rest = float(zeroth.margin) if isinstance(zero, Dip) else 0.0
+            rest = float(zeroth.margin) if isinstance(zero, NearTouch) else 0.0
             best, least = Near(root, (fits[1], fits[2]) if meeting else None, rest), last
         if last <= LAST or width < narrowest:
             break
         width *= max(min(0.8 * (LAST / last) ** (1 / points), 0.8), 0.1)
-    if best is None and not isinstance(zero, Dip):
+    if best is None and not isinstance(zero, NearTouch):
         why = PARTING if meeting else TOO_NEAR if isinstance(zero, End) else TURNING_BACK
         raise AssemblyError(f"joint {name}: {why}")
     return best
@@ -450,7 +466,7 @@ class Separations:
     """The scale of each dyad's margin."""
     samples: Sampled
     path: InputPath
-    settled: Callable[[str], tuple[Extreme, ...]]
+    exact_extremes: Callable[[str], tuple[Extreme, ...]]
     """Returns the extremes of a dyad at which floats cannot tell its margin from nothing.
 
     They are worked out when asked for: that is slow, the slower the more dyads stand before this one.
@@ -471,31 +487,31 @@ class Separations:
         return self.samples.phases
 
     @cached_property
-    def shut(self) -> Bools:
+    def fails(self) -> Bools:
         """Whether each dyad fails to close at each phase (D, N); at none that the path does not pass."""
-        shut = _shut(self.samples, [self.settled(name) for name in self.names])
-        return np.asarray(shut & self.path.passes(self.phases))
+        failing = _failing(self.samples, [self.exact_extremes(name) for name in self.names])
+        return np.asarray(failing & self.path.passes(self.phases))
 
     @property
     def closes(self) -> bool:
         """Whether every dyad closes all along."""
-        return not self.shut.any()
+        return not self.fails.any()
 
     def beside(self, phase: float, name: str, side: int) -> Sum | None:
         """Return the end, on that side, of a stretch without closure that floats miss; None without one."""
-        for found in self.settled(name):
-            turns = round((phase - found.phase) / (2 * math.pi))
-            if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
-                return found.place + FULL_TURN.times(float(turns)) + Sum(side * found.reach)
+        for extreme in self.exact_extremes(name):
+            turns = round((phase - extreme.phase) / (2 * math.pi))
+            if extreme.closes < 0 and abs(phase - extreme.phase - turns * 2 * math.pi) <= extreme.reach:
+                return extreme.place + FULL_TURN.times(float(turns)) + Sum(side * extreme.reach)
         return None
 
     def touches(self, name: str) -> tuple[Sum, ...]:
         """Return the phases at which a dyad's bars just fall into line."""
-        return tuple(found.place for found in self.settled(name) if found.closes == 0)
+        return tuple(extreme.place for extreme in self.exact_extremes(name) if extreme.closes == 0)
 
-    def dips(self, name: str) -> tuple[Sum, ...]:
+    def near_touches(self, name: str) -> tuple[Sum, ...]:
         """Return the phases at which a dyad barely closes, its separation being extreme."""
-        settled = (found.place for found in self.settled(name) if found.closes > 0)
+        settled = (extreme.place for extreme in self.exact_extremes(name) if extreme.closes > 0)
         return (*settled, *map(Sum, self.barely[name]))
 
 
@@ -508,8 +524,8 @@ def separations(assembly: Assembly) -> Separations:
     phases = _phases(assembly)
     # Rates are worked out only where some dyad comes near its limits: one that ends the path's way does.
     limiting = any(name and name not in assembly.loops for name in assembly.path.ends)
-    found = walk_at(assembly, Graph().input("x"), Slope(float(limiting))).closings
-    scales = _scales(assembly.linkage, phases, found)
+    walked = walk_at(assembly, Graph().input("x"), Slope(float(limiting))).closings
+    scales = _scales(assembly.linkage, phases, walked)
     if not scales:
         nothing = np.zeros((4, 0, len(phases)))
         return Separations(
@@ -522,20 +538,20 @@ def separations(assembly: Assembly) -> Separations:
         )
     scale, barely = np.array([*scales.values()]).T
     if not limiting:
-        found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
-    closings = {name: found[name] for name in scales}
+        walked = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
+    closings = {name: walked[name] for name in scales}
     blur = _blur(assembly.linkage)
     sampled = _sampler_separation(closings.values(), scale, blur)
     samples = _halved(tuple(scales), sampled, sampled(phases))
     extremes = _places(sampled, samples, _turning(samples, barely), 0)
-    peaks = _places(sampled, samples, _passing(samples), 3)
+    peaks = _places(sampled, samples, _spans_limits(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
     low = {
         name: _low(assembly, name, (places, sampled(places).rows[2, row]), (-blur, barely[row]))
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
     }
-    unsettled = {name: places[margins <= blur] for name, (places, margins) in low.items()}
-    for name, places in unsettled.items():
+    unclear = {name: places[margins <= blur] for name, (places, margins) in low.items()}
+    for name, places in unclear.items():
         if len(places) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
             raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     exact = ExactWalk(assembly)
@@ -543,7 +559,7 @@ def separations(assembly: Assembly) -> Separations:
         dict(zip(scales, scale.tolist(), strict=True)),
         samples,
         assembly.path,
-        cache(lambda name: tuple(_settled_separation(exact, name, unsettled[name]))),
+        cache(lambda name: tuple(_exact_extremes(exact, name, unclear[name]))),
         {name: tuple(places[margins > blur].tolist()) for name, (places, margins) in low.items()},
         lambda phases: np.asarray(sampled(phases).rows[2]),
     )
@@ -556,14 +572,16 @@ def _blur(linkage: Linkage) -> float:
     return max(TOUCHING, OFF * farthest / (max(bars, default=0.0) or 1.0))
 
 
-def _sampler_separation(found: Collection[Closing], scale: Array, blur: float) -> Callable[[Array], Sampled]:
+def _sampler_separation(
+    closings: Collection[Closing], scale: Array, blur: float
+) -> Callable[[Array], Sampled]:
     """Return the function of phases (N,) that gives s', s'', and over their scale U·W and U - W (4, D, N)."""
     run = _compiled(
         [
-            [closing.separation.rate for closing in found],
-            [closing.separation.second for closing in found],
-            [closing.u * closing.w for closing in found],
-            [closing.half_difference * 2.0 for closing in found],
+            [closing.separation.rate for closing in closings],
+            [closing.separation.second for closing in closings],
+            [closing.u * closing.w for closing in closings],
+            [closing.half_difference * 2.0 for closing in closings],
         ]
     )
 
@@ -605,8 +623,8 @@ def _scales(
     The scale is the greatest margin, or that of its bars. A dyad keeps away from its limits, and is left out,
     where its margin always exceeds that share, and the most that it changes between three samples.
     """
-    found = closings.values()
-    rows = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
+    all_closings = closings.values()
+    rows = _compiled([[one.u * one.w for one in all_closings], [one.size for one in all_closings]])(phases)
     (margins, sizes), blur = rows, _blur(linkage)
     rows[:, _behind(margins < -blur * sizes)] = math.nan
     most, size = np.fmax.reduce(np.abs(rows), axis=2)
@@ -623,10 +641,10 @@ def _scales(
     return {name: tuple(pair) for name, pair, comes in zip(closings, scales, near, strict=True) if comes}
 
 
-def _behind(shut: Bools) -> Bools:
+def _behind(failing: Bools) -> Bools:
     """Tell for each dyad where an earlier one does not close (D, N): its values there are rounding."""
-    before = np.logical_or.accumulate(shut, axis=0)
-    return np.concatenate([np.zeros_like(shut[:1]), before[:-1]])
+    before = np.logical_or.accumulate(failing, axis=0)
+    return np.concatenate([np.zeros_like(failing[:1]), before[:-1]])
 
 
 def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
@@ -634,7 +652,7 @@ def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: 
 
     AssemblyError where halving would not end: the dyad rests at its limit, rounding aside.
     """
-    left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
+    left, right, finer = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
     fastest = _fastest_change(samples)[:, None] / 4
     most = max(len(samples.phases), MOST_UNCLEAR // len(names))
     halvings = 0
@@ -651,17 +669,17 @@ def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: 
         left, right = left.at(index), right.at(index)
         times = 2 if len(index) <= FEW else 1
         between = _between(left, right, 1 << times, sampled)
-        found = found.followed(*between)
+        finer = finer.followed(*between)
         left, right = left.followed(*between), between[0].followed(*between[1:], right)
         fastest, halvings = fastest / (1 << times), halvings + times
-    return found.ordered
+    return finer.ordered
 
 
 def _between(left: Sampled, right: Sampled, parts: int, sampled: Callable[[Array], Sampled]) -> list[Sampled]:
     """Return the samples that divide all cells into that many parts, those of each division together."""
     places = [(left.phases * (parts - k) + right.phases * k) / parts for k in range(1, parts)]
-    found, count = sampled(np.concatenate(places)), len(left.phases)
-    return [found.at(slice(k * count, (k + 1) * count)) for k in range(parts - 1)]
+    halves, count = sampled(np.concatenate(places)), len(left.phases)
+    return [halves.at(slice(k * count, (k + 1) * count)) for k in range(parts - 1)]
 
 
 def _speed(samples: Sampled) -> Array:
@@ -720,7 +738,7 @@ def _turning(samples: Sampled, barely: Array) -> Bools:
     return np.asarray(near & moves & (positive[:, 1:] != positive[:, :-1]))
 
 
-def _passing(samples: Sampled) -> Bools:
+def _spans_limits(samples: Sampled) -> Bools:
     """Tell between which neighbours a separation passes from one limit to the other (D, N - 1)."""
     before, after = (one.rows for one in _neighbours(samples))
     return np.asarray((before[2] < 0) & (after[2] < 0) & ((before[3] > 0) != (after[3] > 0)))
@@ -741,8 +759,8 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
         return np.asarray((sampled(phases).rows[row][dyads, each] > 0) == start)
 
     each = np.arange(len(dyads))
-    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], BESIDE_AN_EXTREME)
-    return [found[dyads == dyad] for dyad in range(len(cells))]
+    ends = ends_of(alike, samples.phases[index], samples.phases[index + 1], BESIDE_AN_EXTREME)
+    return [ends[dyads == dyad] for dyad in range(len(cells))]
 
 
 def _low(
@@ -756,7 +774,7 @@ def _low(
     return phases[low], margins[low]
 
 
-def _settled_separation(exact: ExactWalk, name: str, phases: Array) -> Iterator[Extreme]:
+def _exact_extremes(exact: ExactWalk, name: str, phases: Array) -> Iterator[Extreme]:
     """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
     if not len(phases):
         return
@@ -772,13 +790,13 @@ def _at_own_end(path: InputPath, name: str, phase: float) -> bool:
     return any(end == name and abs(math.remainder(phase - at, 2 * math.pi)) <= AT_END for end, at in ends)
 
 
-def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
+def _failing(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
     """Tell whether each dyad fails to close at each sample (D, N)."""
-    shut = ~(samples.rows[2] >= -samples.blur)
+    failing = ~(samples.rows[2] >= -samples.blur)
     for row, extremes in enumerate(settled):
-        for found in extremes:
-            shut[row, np.searchsorted(samples.phases, found.phase)] = found.closes < 0
-    return np.asarray(shut)
+        for extreme in extremes:
+            failing[row, np.searchsorted(samples.phases, extreme.phase)] = extreme.closes < 0
+    return np.asarray(failing)
 
 
 # Limits and change points of dyads further down the chain, found on the cycle.
@@ -803,39 +821,39 @@ class TooManyChangePoints(AssemblyError):
     """A dyad passes more change points than are worked out."""
 
 
-def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+def stopped(assembly: Assembly, linkage: Linkage, apart: Separations) -> Assembly:
     """Return the assembly on the path that its dyads leave to its input.
 
     It tells how far the input goes, but nothing can be solved on it. Arguments and errors as in `restricted`.
     """
-    return assembly if found.closes else _cut_back(assembly, linkage, found)
+    return assembly if apart.closes else _cut_back(assembly, linkage, apart)
 
 
-def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+def restricted(assembly: Assembly, linkage: Linkage, apart: Separations) -> Assembly:
     """Return the assembly with its input's path cut back to what every dyad allows.
 
-    `linkage` has the lengths as given, for the text of an AssemblyError; `found` are the margins of the dyads
+    `linkage` has the lengths as given, for the text of an AssemblyError; `apart` are the margins of the dyads
     on moving points.
     """
-    if not found.names:
+    if not apart.names:
         return assembly
-    closes = found.closes
-    whole, on_whole = through_change_points(assembly, found)
+    closes = apart.closes
+    whole, on_whole = through_change_points(assembly, apart)
     if closes and (whole is assembly or _runs_through(whole, on_whole)):
         return fitted(whole)
     if closes:
         # A dyad cannot be closed only on the closures beyond a change point.
-        assembly, found = whole, on_whole
-    return fitted(_cut_back(assembly, linkage, found))
+        assembly, apart = whole, on_whole
+    return fitted(_cut_back(assembly, linkage, apart))
 
 
-def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+def _cut_back(assembly: Assembly, linkage: Linkage, apart: Separations) -> Assembly:
     """Return the assembly on the swing around the start that every dyad allows.
 
     At a limit it runs through onto the other closure where all dyads close on the whole swing beyond it, too,
     and have their limits at the same places. Else the input turns back there, and keeps its closures.
     """
-    swing, limited, on_limited = _cut(assembly, linkage, found)
+    swing, limited, on_limited = _cut(assembly, linkage, apart)
     refusal = AssemblyError(NO_RANGE)
     for keeps in KEPT[-1:] if all(swing.keeps) else KEPT:
         try:
@@ -852,14 +870,14 @@ def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assem
     raise refusal
 
 
-def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
+def _cut(assembly: Assembly, linkage: Linkage, apart: Separations) -> tuple[Swing, Assembly, Separations]:
     """Return the swing around the start on which every dyad closes on the way up, and the margins on it."""
-    first = found.shut.argmax(axis=0)
-    if found.shut.any(axis=0).all():
-        name = found.names[int(first.max())]
-        most = _most(assembly, name, found.phases)
+    first = apart.fails.argmax(axis=0)
+    if apart.fails.any(axis=0).all():
+        name = apart.names[int(first.max())]
+        most = _most(assembly, name, apart.phases)
         raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
-    on_swing, limited = found, assembly
+    on_swing, limited = apart, assembly
     for _ in range(CUTS):
         cut = limited.path.cut(*_open_interval(limited, on_swing))
         swing = Swing(*cut, keeps=(linkage.drive.retraced,) * 2)
@@ -867,7 +885,7 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
         limited, on_swing = _limited(assembly, swing)
         up = (on_swing.phases > 0) & (on_swing.phases < math.pi)  # at its ends rounding alone decides
-        if not on_swing.shut[:, up].any():
+        if not on_swing.fails[:, up].any():
             break
     return swing, limited, on_swing
 
@@ -889,32 +907,34 @@ def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
     return u * assembly.unscale**2, w * assembly.unscale**2
 
 
-def _runs_through(assembly: Assembly, found: Separations) -> bool:
+def _runs_through(assembly: Assembly, apart: Separations) -> bool:
     """Tell whether every dyad closes all the way, and those that limit the input do so at each visit.
 
-    One that keeps away from its limits, as `found` has it, limits nothing on this path.
+    One that keeps away from its limits, as `apart` has it, limits nothing on this path.
     """
     path = assembly.path
     visits = np.arange(-1, 2 * path.periods + 1, dtype=np.float64)
     visits = visits[path.passes(visits * math.pi)]
     places = (visits[visits % 2 == upper] * math.pi for upper in (0, 1))
-    return found.closes and all(
-        name in found.names and bool((np.abs(found.margins(there)[found.names.index(name)]) <= USED_UP).all())
+    return apart.closes and all(
+        name in apart.names and bool((np.abs(apart.margins(there)[apart.names.index(name)]) <= USED_UP).all())
         for name, there in zip(path.ends, places, strict=False)
         if name and name not in assembly.loops
     )
 
 
-def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
-    """Return the ends of the interval around the start, or of the widest one where the start is shut."""
-    phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
-    is_open = np.asarray(~shut.any(axis=0))
+def _open_interval(assembly: Assembly, apart: Separations) -> tuple[Limit, Limit]:
+    """Return the ends of the interval around the start, or the widest one where the start is not in one."""
+    phases, failing, home = assembly.path.beside(assembly.linkage.drive.start, apart.phases, apart.fails)
+    is_open = np.asarray(~failing.any(axis=0))
     if not is_open.any():  # cut back for one dyad, nothing is left to another
         raise AssemblyError(NO_RANGE)
     first, last = _run_around(is_open, home, phases)
     places = ((first, first - 1), (last, last + 1))
     brackets = {outside: inside for inside, outside in places if 0 <= outside < len(phases)}
-    limits = _limits(found, phases[list(brackets.values())], phases[list(brackets)], shut[:, list(brackets)])
+    limits = _limits(
+        apart, phases[list(brackets.values())], phases[list(brackets)], failing[:, list(brackets)]
+    )
     refiner = cache(partial(refining, ExactWalk(assembly)))  # one dyad mostly limits both ends
     known: dict[int, Limit] = {
         outside: (refiner(name)(place), name) for outside, (place, name) in zip(brackets, limits, strict=True)
@@ -923,10 +943,10 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
     return below, above
 
 
-def open_places(assembly: Assembly, found: Separations) -> list[float]:
+def open_places(assembly: Assembly, apart: Separations) -> list[float]:
     """Return for each range of the input on which every dyad closes a place of it within."""
-    phases, shut, _ = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
-    first, last = _runs(np.asarray(~shut.any(axis=0)))
+    phases, failing, _ = assembly.path.beside(assembly.linkage.drive.start, apart.phases, apart.fails)
+    first, last = _runs(np.asarray(~failing.any(axis=0)))
     middles = (phases[first] + phases[last]) / 2
     once = (middles >= 0) & (middles < 2 * math.pi * assembly.path.periods)
     places: list[float] = assembly.path.coordinates(middles[once]).tolist()
@@ -954,61 +974,63 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
 
 
 def _limits(
-    found: Separations, inside: Array, outside: Array, shut: NDArray[np.bool_]
+    apart: Separations, inside: Array, outside: Array, failing: NDArray[np.bool_]
 ) -> list[tuple[Sum, str]]:
     """Return the limit between each open phase and the shut one beside it, by bisection, and whose it is."""
     if not len(inside):  # the way up is open, and only that back is not
         return []
-    margins = found.margins(outside)
-    rows = np.array([_first_shut(*both) for both in zip(shut.T, margins.T, strict=True)], np.intp)
-    names, sides = [found.names[row] for row in rows], np.where(inside > outside, 1, -1)
+    margins = apart.margins(outside)
+    rows = np.array([_first_failing(*both) for both in zip(failing.T, margins.T, strict=True)], np.intp)
+    names, sides = [apart.names[row] for row in rows], np.where(inside > outside, 1, -1)
     own = np.arange(len(rows))
 
     def closes(phases: Array) -> Bools:
-        return np.asarray(found.margins(phases)[rows, own] >= 0)
+        return np.asarray(apart.margins(phases)[rows, own] >= 0)
 
     ends = ends_of(closes, inside, outside)
-    missed = (found.beside(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
+    missed = (apart.beside(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
     starts = (Sum(float(end)) if start is None else start for start, end in zip(missed, ends, strict=True))
     return list(zip(starts, names, strict=True))
 
 
-def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
+def _first_failing(failing: NDArray[np.bool_], margins: Array) -> int:
     """Return the first dyad of the chain that does not close at a phase.
 
     A dyad whose margin is NaN stands on another that does not close, if only by rounding.
     """
-    row = int(shut.argmax())
+    row = int(failing.argmax())
     before = np.flatnonzero(margins[:row] < 0)
     return int(before[0]) if math.isnan(margins[row]) and len(before) else row
 
 
-def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
+def through_change_points(assembly: Assembly, apart: Separations) -> tuple[Assembly, Separations]:
     """Return the assembly with the zeros of the dyads on moving points, and the margins on it.
 
     The dyads are taken in the chain's order: where one passes onto its other closure, those that stand on it
     move differently, and may no longer come near their limits.
     """
-    names = found.names
+    names = apart.names
     for name in names:
-        if name not in found.names:
+        if name not in apart.names:
             continue
-        through = _through(assembly, name, found)
-        if found.touches(name) and name != found.names[-1]:
-            found = separations(through)
+        through = _through(assembly, name, apart)
+        if apart.touches(name) and name != apart.names[-1]:
+            apart = separations(through)
         assembly = through
-    return assembly, found
+    return assembly, apart
 
 
-def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
-    """Return the assembly with one dyad's zeros: its limits, which are known, its change points and dips."""
+def _through(assembly: Assembly, name: str, apart: Separations) -> Assembly:
+    """Return the assembly with one dyad's zeros: the known limits, its change points and near touches."""
     path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
-    touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
-    dips = tuple(Dip(path.place(phase), path.periods, path.amplitude) for phase in found.dips(name))
-    root = ChainRoot((*known.zeros, *touches), found.scales[name] * NO_DIGITS, dips=dips)
-    if not (root.zeros or dips):
+    touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in apart.touches(name))
+    near_touches = tuple(
+        NearTouch(path.place(phase), path.periods, path.amplitude) for phase in apart.near_touches(name)
+    )
+    root = ChainRoot((*known.zeros, *touches), apart.scales[name] * NO_DIGITS, near_touches=near_touches)
+    if not (root.zeros or near_touches):
         return assembly
-    if (passed := len(root.zeros) + len(dips)) > MOST_CHANGE_POINTS:
+    if (passed := len(root.zeros) + len(near_touches)) > MOST_CHANGE_POINTS:
         raise TooManyChangePoints(
             f"joint {name}: it passes {passed:,} change points, or comes near them, until every joint is "
             f"back, and {MOST_CHANGE_POINTS} are the most here; give its gears smaller ratios"

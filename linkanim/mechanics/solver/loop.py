@@ -102,11 +102,11 @@ class Links(NamedTuple):
 
 
 class Closure(NamedTuple):
-    """ψ/2, q and its `slack` (see `SignedRoot`); lengths squared are divided by `unit`, 4 g r."""
+    """ψ/2, q and its `excess` (see `SignedRoot`); lengths squared are divided by `unit`, 4 g r."""
 
     half: Half
     q: Value
-    slack: Value
+    excess: Value
     unit: float
 
 
@@ -160,7 +160,7 @@ def _terms(links: Links, closing: Closure) -> _Terms:
 def _left(terms: _Terms, closing: Closure, sign: float) -> Value:
     """Return the rate of T p ± q d without the shares of its squares and constants."""
     own = closing.half.sine * closing.half.sine * terms.p.value * 0.25
-    return own + closing.q * terms.d.value * closing.slack * (0.5 * sign)
+    return own + closing.q * terms.d.value * closing.excess * (0.5 * sign)
 
 
 def _of_constants(links: Links, terms: _Terms, closing: Closure, sign: float) -> Value:
@@ -190,7 +190,7 @@ def _as_sum(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, Value
     square = closing.half.sine * closing.half.sine
     part = select(square, long.least, squares, constants)
     rest = _left(terms, closing, 1.0) / (long.value * q)
-    return omega, part + omega * closing.slack * 0.5 - rest
+    return omega, part + omega * closing.excess * 0.5 - rest
 
 
 def _as_product(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, Value]:
@@ -205,7 +205,7 @@ def _as_product(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, V
     mark = abs(one.least / one.share) if one.share else math.inf
     part = select(half.sine * half.sine, mark, squares, constants)
     rest = _left(terms, closing, -1.0) / total
-    return omega, part - cot * one.value * share * two.least + omega * (closing.slack * 0.5 + rest)
+    return omega, part - cot * one.value * share * two.least + omega * (closing.excess * 0.5 + rest)
 
 
 def _collinear(links: Links, closing: Closure) -> tuple[_Grown, _Grown]:
@@ -224,7 +224,7 @@ def _collinear(links: Links, closing: Closure) -> tuple[_Grown, _Grown]:
 class Triangle(NamedTuple):
     """P, Q and the third corner: D, shares of it, and what its rates need.
 
-    `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `lift` runs from D to
+    `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `altitude` runs from D to
     the corner, i D q/(2L²); `turn` is e and, as its rate, e' + ρ near'. `longer` is how the longer bar turns,
     given where e and the share of ρ would cancel.
     """
@@ -232,7 +232,7 @@ class Triangle(NamedTuple):
     across: Vec
     near: Value
     far: Value
-    lift: Vec
+    altitude: Vec
     turn: Slope
     ratio: Slope
     longer: Slope | None = None
@@ -294,20 +294,20 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
         across=across,
         near=(square + over(_near_constant(short, a, b), unit)) * share,
         far=(square + over(_near_constant(short, b, a), unit)) * share,
-        lift=across.left().scaled(root.q * share),
+        altitude=across.left().scaled(root.q * share),
         turn=turn.plus(0.0, change * (root.ratio.value * excess + w * outer)),
         ratio=root.ratio,
     )
     links = Links(loop.ground.high, loop.crank, a, b, (loop.ground.high, loop.ground.low, -loop.crank))
-    if root.slack is None or not links.kite:
+    if root.excess is None or not links.kite:
         return triangle
     return triangle._replace(longer=_longer(loop, links, root, triangle.turn_of_longer(a < b)))
 
 
 def _longer(loop: PinLoop, links: Links, root: SignedRoot, turn: Slope) -> Slope:
     """Return how the longer bar turns next to a kite; it is `turn` where the pins are far apart."""
-    assert root.slack is not None
-    closing = Closure(loop.half, root.q, root.slack, loop.unit)
+    assert root.excess is not None
+    closing = Closure(loop.half, root.q, root.excess, loop.unit)
     if links.coupler < links.rocker:
         rate, bend = turning(links, closing)
     else:
@@ -334,10 +334,10 @@ def _turn(loop: PinLoop, square: Value, share: Value, rate: Value) -> Value:
 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
-    """Return the triangle of a kite or rhombus, whose pins meet at ψ = 0: the lift is √U/2 along e^{iψ/2}."""
-    lift = Vec(loop.half.cosine, loop.half.sine).times(loop.direction).scaled(root.root_u * loop.crank)
+    """Return the triangle of a kite or rhombus, whose pins meet at ψ = 0; altitude: √U/2 along e^{iψ/2}."""
+    altitude = Vec(loop.half.cosine, loop.half.sine).times(loop.direction).scaled(root.root_u * loop.crank)
     half_turn = Slope(loop.pace.value * 0.5, loop.pace.rate * 0.5)
-    return Triangle(loop.across(), 0.5, 0.5, lift, half_turn, root.ratio)
+    return Triangle(loop.across(), 0.5, 0.5, altitude, half_turn, root.ratio)
 
 
 def _near_constant(gap: Any, near: Any, far: Any) -> Any:
@@ -352,10 +352,10 @@ def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: S
     """Return the triangle on two points that both move, D apart.
 
     Where the ends of equal bars meet, D and q vanish together: with the common zero divided out they give the
-    lift and the turn.
+    altitude and the turn.
     """
     a, b = lengths
-    reduced = signed.lift or Reduced(across, signed.q)
+    reduced = signed.altitude or Reduced(across, signed.q)
     (d, rate, bend), excess = reduced.across, (b - a) * (b + a)
     square = d.dot(d)
     share = 0.5 / square
@@ -366,7 +366,7 @@ def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: S
         across=across.position,
         near=(square - excess) * share,
         far=(square + excess) * share,
-        lift=d.left().scaled(reduced.q * share),
+        altitude=d.left().scaled(reduced.q * share),
         turn=Slope(turn, second + signed.ratio.value * (share * growth * excess)),
         ratio=signed.ratio,
     )
@@ -476,18 +476,18 @@ def own_loop(crank: str, loops: Mapping[str, Loop]) -> Loop | None:
 def gearings(linkage: Linkage) -> dict[str, Gearing]:
     """Map each crank's pin to how it turns with the input; AssemblyError where it does not."""
     own = linkage.drive.joint
-    found = {own: Gearing()} if isinstance(linkage.joint(own), Crank) else {}
+    gearings_of = {own: Gearing()} if isinstance(linkage.joint(own), Crank) else {}
     for crank in linkage.cranks:
-        if crank.name in found:
+        if crank.name in gearings_of:
             continue
-        if crank.gear is None or crank.gear.mate not in found:
+        if crank.gear is None or crank.gear.mate not in gearings_of:
             raise AssemblyError(
                 f"joint {crank.name}: this crank turns with nothing; gear it to {linkage.drive.joint}"
             )
-        mate = found[crank.gear.mate]
+        mate = gearings_of[crank.gear.mate]
         offset = mate.offset * crank.gear.ratio + exact_angle(crank.gear.offset)
-        found[crank.name] = Gearing(mate.ratio * crank.gear.ratio, offset)
-    return found
+        gearings_of[crank.name] = Gearing(mate.ratio * crank.gear.ratio, offset)
+    return gearings_of
 
 
 def pin_against_pin(

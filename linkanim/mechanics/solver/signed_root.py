@@ -254,9 +254,9 @@ def _sized(leasts: Callable[[bool], list[Value]], ample: Value, least: Value) ->
     Otherwise they are made of exact gaps; Unlike where one of them is smaller than `least`.
     """
     for exact, size in ((False, ample), (True, least)):
-        found = leasts(exact)
-        if size < reduce(minimum, [one if known(one) > 0 else -one for one in found]):
-            return not exact, found
+        smallest = leasts(exact)
+        if size < reduce(minimum, [one if known(one) > 0 else -one for one in smallest]):
+            return not exact, smallest
     raise Unlike
 
 
@@ -378,25 +378,28 @@ class Reduced(NamedTuple):
 class SignedRoot:
     """q, the ratio ρ = (L²)'/q, and the signed √U where q is a product of two roots.
 
-    `lift` closes a dyad whose two ends meet on the way. `slack` is cot(ψ/2) - 2 q'/q, by the angle of a crank
-    that W limits: it tells how far q is from sin(ψ/2), its form for equal bars on pins that meet at ψ = 0.
+    `altitude` closes a dyad whose two ends meet on the way. `excess` is cot(ψ/2) - 2 q'/q, by the angle of
+    a crank that W limits: it tells how far q is from sin(ψ/2), its form for equal bars on pins that meet at
+    ψ = 0.
     """
 
     q: Value
     ratio: Slope
     root_u: Value = 0.0
-    lift: Reduced | None = None
-    slack: Value | None = None
+    altitude: Reduced | None = None
+    excess: Value | None = None
 
     def times(self, sign: int) -> SignedRoot:
         """Return the root of the closure on the other side where `sign` is -1."""
         factor = float(sign)
-        lift = self.lift and Reduced(self.lift.across, self.lift.q * factor)
-        return SignedRoot(self.q * factor, self.ratio.scaled(factor), self.root_u * factor, lift, self.slack)
+        altitude = self.altitude and Reduced(self.altitude.across, self.altitude.q * factor)
+        return SignedRoot(
+            self.q * factor, self.ratio.scaled(factor), self.root_u * factor, altitude, self.excess
+        )
 
-    def with_lift(self, lift: Reduced) -> SignedRoot:
+    def with_altitude(self, altitude: Reduced) -> SignedRoot:
         """Return the root of a dyad whose ends meet on the way."""
-        return replace(self, lift=lift)
+        return replace(self, altitude=altitude)
 
 
 def plain_root(u: Value, w: Value, separation: Moving, half_difference: Value) -> SignedRoot:
@@ -558,10 +561,10 @@ def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Ends) -> Sign
     ratio = share * part_u.left * part_w.left
     bend = (part_w.bend * part_u.left - part_u.bend * part_w.left) * share * 0.5
     rates = Slope(ratio * pace.value, ratio * pace.rate + bend * (pace.value * pace.value))
-    slack = None
+    excess = None
     if root.w.kind is Kind.LIMIT and root.u.kind is not Kind.CHANGE_POINT:
-        slack = part_w.bend / half.sine + half.sine * half.cosine * root.spread / part_u.value
-    return SignedRoot(part_u.whole * part_w.whole, rates, part_u.whole, slack=slack)
+        excess = part_w.bend / half.sine + half.sine * half.cosine * root.spread / part_u.value
+    return SignedRoot(part_u.whole * part_w.whole, rates, part_u.whole, excess=excess)
 
 
 class _PartByAngle(NamedTuple):

@@ -259,8 +259,8 @@ class CylinderStroke(Stroke):
 
     def distances(self, angle: Array) -> LimitDistances:
         """Return which angles the crank comes to; at both ends it merely turns back."""
-        found = self.swing.distances(angle)
-        return replace(found, at_limit=np.zeros_like(found.outside))
+        limits = self.swing.distances(angle)
+        return replace(limits, at_limit=np.zeros_like(limits.outside))
 
 
 def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Swing] | None) -> CylinderStroke:
