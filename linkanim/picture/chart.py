@@ -16,7 +16,7 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.quantities import Quantity
 from linkanim.picture.figure import Figure
-from linkanim.picture.items import Caption, Item
+from linkanim.picture.items import Caption, Item, Target
 from linkanim.picture.layout import Layout
 from linkanim.picture.look import Over
 from linkanim.picture.quantities import (
@@ -439,12 +439,17 @@ class ChartPanel:
         colours = self._swatch + (0.4 + _GAP) * self.pen.text if len(words) > 1 else 0.0
         return [self.pen.type.width(text, self.pen.text) + colours for text in words]
 
-    def phase_at(self, px: float, py: float) -> float | None:
-        """Return the phase under a pixel, None outside the chart; a little beside the ends counts."""
+    @property
+    def targets(self) -> tuple[Target, ...]:
+        """Where it can be clicked: a little beside its ends, too; and its title."""
         area = self.plot.area
         near = Rect(area.x - 12, area.y, area.width + 24, area.height + 2 * self.pen.small)
-        if not near.holds(px, py):
-            return None
+        title = self.title.around(self.pen.type)
+        return Target("chart", near, self), Target("chart-title", title, self.quantity.token)
+
+    def phase_at(self, px: float) -> float:
+        """Return the phase at a pixel's x, at most that of the nearer end."""
+        area = self.plot.area
         share = min(max((px - area.x) / area.width, 0.0), 1.0)
         return float(self.course.phase_of(share * self.course.span)) % self.course.period
 
@@ -490,15 +495,9 @@ class ChartStrips:
         """Yield the pose's values above each plot."""
         return chain.from_iterable(panel.readings(pose) for panel in self.panels)
 
-    def phase_at(self, px: float, py: float) -> float | None:
-        """Return the phase under a pixel, None outside all charts."""
-        found = (panel.phase_at(px, py) for panel in self.panels)
-        return next((phase for phase in found if phase is not None), None)
-
-    def titled_at(self, px: float, py: float) -> str | None:
-        """Return the token of the chart whose title is under a pixel; None elsewhere."""
-        titled = (panel for panel in self.panels if panel.title.around(panel.pen.type).holds(px, py))
-        return next((panel.quantity.token for panel in titled), None)
+    def targets(self) -> tuple[Target, ...]:
+        """Return where they can be clicked."""
+        return tuple(target for panel in self.panels for target in panel.targets)
 
 
 def chart_strips(

@@ -16,7 +16,7 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity, register
-from linkanim.picture.items import Caption, Group, Item, grouped
+from linkanim.picture.items import Caption, Group, Item, Target, grouped
 from linkanim.picture.layout import Layout
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Arrows
@@ -265,13 +265,20 @@ class Hud:
     type: Type
     theme: Theme
 
-    def still(self) -> Iterator[Caption]:
-        """Yield the words that stand still."""
+    @cached_property
+    def still(self) -> Group:
+        """The words that stand still; a click is for a row by its label, or for the class by ""."""
+        captions, targets, place, size = list[Caption](), list[Target](), self.place, self.block.size
         for line in self.block.lines:
-            at, ink = (self.place.x, self.place.y + line.y), self.theme.ink if line.strong else self.theme.dim
-            yield Caption(line.text, at, line.size, ink, strong=line.strong)
+            at, ink = (place.x, place.y + line.y), self.theme.ink if line.strong else self.theme.dim
+            captions.append(Caption(line.text, at, line.size, ink, strong=line.strong))
+            if not line.strong:
+                targets.append(Target("reading", place._replace(y=at[1], height=1.2 * line.size), ""))
         for n, (_, row) in enumerate(ranked(self._rows, self.scene.pose(0.0))):
-            yield Caption(row.label, (self.place.x, self._top(n)), self.block.size, self.theme.dim)
+            captions.append(Caption(row.label, (place.x, self._top(n)), size, self.theme.dim))
+            around = place._replace(y=self._top(n) - 0.1 * STEP * size, height=STEP * size)
+            targets.append(Target("reading", around, row.label))
+        return Group("words", (), captions, targets=tuple(targets))
 
     def values(self, pose: Pose) -> list[Caption]:
         """Return the numbers of a pose beside them."""
@@ -280,21 +287,6 @@ class Hud:
             Caption(row.value, (right, self._top(n)), size, self.theme.ink, "right", strong=True)
             for n, (_, row) in enumerate(ranked(self._rows, pose))
         ]
-
-    def label_at(self, x: float, y: float) -> str | None:
-        """Return the label of the row under a pixel, "" for the class, None elsewhere."""
-        if not self.place.x <= x <= self.place.right:
-            return None
-        if any(self.place.y + one.y <= y <= self.place.y + one.y + 1.2 * one.size for one in self._classed):
-            return ""
-        found = [row.label for _, row in ranked(self._rows, self.scene.pose(0.0))]
-        number = floor((y - self._top(0)) / (STEP * self.block.size) + 0.1)
-        return found[number] if 0 <= number < len(found) else None
-
-    @property
-    def _classed(self) -> tuple[WordLine, ...]:
-        """The lines that name the class."""
-        return tuple(line for line in self.block.lines if not line.strong)
 
     @cached_property
     def _rows(self) -> tuple[Row, ...]:

@@ -20,7 +20,9 @@ class Target(NamedTuple):
     It is a "list", a "row" with its number, the column of "boxes", the "track" of a scroll bar with the count
     of rows, the "help", a "line" of it with its keys, a "toast"; the "bar", a "button" of it with its number;
     a "tool", or an "answer", with its number; the "dial" and the "slider", with the rail of their knob; a row
-    among the "numbers" or the "offers" on a sheet, with its number, −1 for their title.
+    among the "numbers" or the "offers" on a sheet, with its number, −1 for their title; a "chart", with its
+    panel, a "chart-title" with its token, a "polygon" with its order, a "reading" with its row's label, ""
+    for the class; the "shelf" with its grid, an "entry" of it with its place, its scroll bar, "shelf-track".
     """
 
     kind: str
@@ -102,7 +104,9 @@ class Group(NamedTuple):
     def shifted(self, right: float, down: float) -> Group:
         """Return the group so many pixels to the right and down."""
         words = [one._replace(at=(one.at[0] + right, one.at[1] + down)) for one in self.captions]
-        return self._replace(layers=[one.placed(complex(right, down)) for one in self.layers], captions=words)
+        layers = [one.placed(complex(right, down)) for one in self.layers]
+        targets = tuple(one.moved(right, down) for one in self.targets)
+        return self._replace(layers=layers, captions=words, targets=targets)
 
     @property
     def named(self) -> Iterator[Caption]:

@@ -583,11 +583,6 @@ class Overlay:
         """The tools, of a sheet or beside a list of dimensions; None where there are none."""
         return self.build.tools if self.build else self.tools
 
-    @property
-    def hides_chart(self) -> bool:
-        """Whether no chart is shown: on blank paper, under a draft or among parts in layers."""
-        return bool(self.alone or (self.build and self.build.draft))
-
 
 NOTHING_OVER = Overlay()
 """The empty overlay, of pictures outside of a window."""

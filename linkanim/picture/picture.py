@@ -335,7 +335,7 @@ class Picture:
             yield from self._standing
         if self._chart:
             self._chart = self._chart.at(speed)
-            yield grouped("chart", self._chart.still(), still=True)
+            yield grouped("chart", self._chart.still(), still=True)._replace(targets=self._chart.targets())
         if self._legend and not self._overruns:
             yield self._legend.group(speed)
         if self.layout.caption and self.look.caption:
@@ -406,7 +406,8 @@ class Picture:
             return
         values = self._hud.values(pose)
         notes = self._hud.notes(pose) if noted and values else ()
-        yield Group("words", (), [*self._hud_still, *values, *notes])
+        still = self._hud.still
+        yield still._replace(captions=[*still.captions, *values, *notes])
 
     def _far_centres(self, centres: Centres, pose: Pose) -> Iterator[Caption]:
         """Yield where the centres are that the picture does not show, in rows at the foot of the legend."""
@@ -416,11 +417,6 @@ class Picture:
         top = legend.bottom - LISTED_STEP * size * len(centres.known.far)
         for n, row in enumerate(rows):
             yield Caption(row, (legend.x, top + LISTED_STEP * size * n), size, self.theme.warning)
-
-    @cached_property
-    def _hud_still(self) -> tuple[Caption, ...]:
-        assert self._hud
-        return tuple(self._hud.still())
 
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield the marks for the hand: on the chosen bar, and on the joint to be dragged."""
@@ -479,23 +475,11 @@ class Picture:
         """Return where the pin that the phase drives lies, in pixels."""
         return self.view.to_pixel(*pose.position[self.scene.linkage.drive.joint])
 
-    def chart_phase_at(self, px: float, py: float) -> float | None:
-        """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""
-        return self._chart.phase_at(px, py) if self._chart else None
-
-    def chart_titled_at(self, px: float, py: float) -> str | None:
-        """Return the token of the chart whose title is under a pixel; None elsewhere."""
-        return self._chart.titled_at(px, py) if self._chart else None
-
     @cached_property
     def _ghost(self) -> Scene | None:
         if not self.look.ghost:
             return None
         return ghost_of(self.scene) if self.scene.goal else self.composition.subject.beside
-
-    def label_at(self, x: float, y: float) -> str | None:
-        """Return the label of the row of numbers under a pixel, "" for the class; None elsewhere."""
-        return self._hud.label_at(x, y) if self._hud else None
 
     @cached_property
     def _hud(self) -> Hud | None:
@@ -539,7 +523,3 @@ class Picture:
         (right, down), places = self._aside, (self.layout.chart, self.layout.polygons)
         chart, polygons = (place and place._replace(x=place.x + right, y=place.y + down) for place in places)
         return replace(self.layout, chart=chart, polygons=polygons)
-
-    def polygon_at(self, px: float, py: float) -> int | None:
-        """Return the polygon under a pixel: 1 of velocities, 2 of accelerations; None elsewhere."""
-        return next((one.order for one in self._polygons if one.rect.holds(px, py)), None)

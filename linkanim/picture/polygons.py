@@ -14,7 +14,7 @@ from linkanim.mechanics.polygons import Order, Side, Sort
 from linkanim.picture.anchors import Way, pushed
 from linkanim.picture.chart import Pen
 from linkanim.picture.figure import Figure
-from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.items import Caption, Group, Halo, Target
 from linkanim.picture.motion_marks import SeenArrow
 from linkanim.picture.placing import Alternatives, chosen, crossed, grounded
 from linkanim.picture.quantities import round_step
@@ -136,7 +136,8 @@ class Polygon:
             why = "all at rest" if at_rest else "unbounded here"
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
             captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
-        return Group(words.replace(" ", "-"), layers, captions)
+        targets = (Target("polygon", self.rect, self.order),)
+        return Group(words.replace(" ", "-"), layers, captions, targets=targets)
 
     @cached_property
     def _title(self) -> Caption:

@@ -71,12 +71,25 @@ class Grid(NamedTuple):
     room: Rect
     line: float
     text: int
+    shape: Shape
     track: Rect | None = None
 
-    def at(self, x: float, y: float) -> int | None:
-        """Return the mechanism under a pixel; None between the pictures."""
-        inside = self.room.holds(x, y)
-        return next((n for n, cell in self.cells.items() if inside and cell.holds(x, y)), None)
+    @property
+    def targets(self) -> list[Target]:
+        """Where it can be clicked."""
+        low = self.room.bottom
+        cells = {n: one._replace(height=min(one.bottom, low) - one.y) for n, one in self.cells.items()}
+        tracks = [Target("shelf-track", self.track)] if self.track else []
+        return [
+            Target("shelf", self.room, self),
+            *(Target("entry", one, n) for n, one in cells.items()),
+            *tracks,
+        ]
+
+    def scrolled(self, rows: int) -> Grid:
+        """Return the grid so many rows further down, as far as there are any."""
+        row = min(max(self.top + rows, 0), max(len(self.rows) - 1, 0))
+        return self.shape.showing(row, row)
 
     def beside(self, place: int, rows: int) -> int:
         """Return the mechanism nearest to a place, `rows` further down; the first row follows the last.
@@ -114,19 +127,12 @@ class Grid(NamedTuple):
 
 def grid(size: tuple[int, int], browsing: Browsing) -> Grid:
     """Return where a shelf's mechanisms stand, scrolled so that the chosen one is visible."""
-    shape = _Shape(size, browsing)
-    last = len(shape.rows) - 1
+    shape = Shape(size, browsing)
     chosen = next((n for n, row in enumerate(shape.rows) if browsing.chosen in row), 0)
-    top = min(max(browsing.top, 0), chosen, max(last, 0))
-    while top < chosen and not shape.grid(top).whole(browsing.chosen):
-        top += 1
-    # it is scrolled at most until the last row stands at the foot
-    while top > 0 and shape.grid(top - 1).whole(shape.rows[last][0]):
-        top -= 1
-    return shape.grid(top)
+    return shape.showing(browsing.top, chosen)
 
 
-class _Shape:
+class Shape:
     """The sizes of things on a shelf, and which mechanisms are in each row."""
 
     def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:
@@ -150,6 +156,19 @@ class _Shape:
             tuple(members[n : n + columns]) for _, members in groups for n in range(0, len(members), columns)
         )
 
+    def showing(self, top: int, row: int) -> Grid:
+        """Return the grid with the row `top` at its top, or another so that a row is visible as a whole.
+
+        It is scrolled at most until the last row stands at the foot.
+        """
+        last = len(self.rows) - 1
+        top = min(max(top, 0), row, max(last, 0))
+        while top < row and not self.grid(top).whole(self.rows[row][0]):
+            top += 1
+        while top > 0 and self.grid(top - 1).whole(self.rows[last][0]):
+            top -= 1
+        return self.grid(top)
+
     def grid(self, top: int) -> Grid:
         """Return the grid with a row at its top, below the name of its chapter."""
         cells: dict[int, Rect] = {}
@@ -166,7 +185,7 @@ class _Shape:
                 cells[place] = Rect(x, y, self._wide, high)
             y += high + self._gap
         seen = tuple(one for one in heads if one[1].bottom <= self._room.bottom)
-        found = Grid(cells, seen, self.rows, top, self._room, self.line, self.text)
+        found = Grid(cells, seen, self.rows, top, self._room, self.line, self.text, self)
         return found if len(found.seen) >= len(self.rows) else found._replace(track=self._track)
 
 
@@ -211,8 +230,11 @@ class ShelfPrinter:
         self._made_for = self._still = None
         self._live, self._unread, self._read = {}, set(), None
 
-    def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
-        """Draw the shelf instead of the picture; each frame after the first adds one mechanism."""
+    def draw(self, surface: pygame.Surface, shelf: Shelf) -> list[Target]:
+        """Draw the shelf instead of the picture, and return its places.
+
+        Each frame after the first adds one mechanism.
+        """
         size = surface.get_size()
         made_for = size, shelf.theme, shelf.browsing.entries, shelf.browsing.own
         opens = self._made_for != made_for
@@ -240,6 +262,7 @@ class ShelfPrinter:
             _mark(surface, board, cell, chosen=n == shelf.browsing.chosen, edited=n in shelf.edited)
         surface.set_clip(None)
         _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
+        return found.targets
 
     def _join(self, found: Grid, shelf: Shelf) -> int:
         """Read the next visible mechanism, the chosen one first, or make the picture of the one just read.

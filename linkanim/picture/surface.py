@@ -88,7 +88,7 @@ class SurfacePrinter:
                     cover.put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
-        self.targets = tuple(target for run in others for group in run for target in group.targets)
+        self.targets = tuple(target for run in (first, *others) for group in run for target in group.targets)
         if overlay != NOTHING_OVER:
             self.targets += self._panels_of(picture).draw(canvas, overlay)
         if is_clear(canvas):

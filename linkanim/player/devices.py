@@ -448,12 +448,12 @@ class Mouse:
                 self.drag, self.steps = "pace", 0
                 return ()
             case "down":
-                if token := screen.chart_titled_at(*self.at):
+                if title := screen.target_at("chart-title", *self.at):
                     self.drag = "bar"
-                    return (Action("strip", token),)
-                if order := screen.polygon_at(*self.at):
+                    return (Action("strip", title.value),)
+                if polygon := screen.target_at("polygon", *self.at):
                     self.drag, alone = "bar", screen.state.look.large_polygon
-                    return (Action("large_polygon"),) * ((3 - alone) if alone else order)
+                    return (Action("large_polygon"),) * ((3 - alone) if alone else polygon.value)
                 handle = screen.handle_at(*self.at, REACH * screen.size[1])
                 curve = None if handle else screen.on_trace(*self.at, NEAR_HAND * screen.size[1])
                 self.drag = "joint" if handle or curve else self._grabbed(screen)

@@ -309,8 +309,7 @@ class Screen:
 
     def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:
-            self._targets = ()
-            self._shelf.draw(surface, over.shelf)
+            self._targets = tuple(self._shelf.draw(surface, over.shelf))
         else:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
@@ -532,9 +531,9 @@ class Screen:
         phase, place, picture = self.charted(x, y), self.world(x, y), self.last
         if phase is not None:
             return Pointed(place, instant=phase)
-        label = picture.label_at(x, y) if self.state.mode in ("play", "paused") else None
-        if label is not None:
-            return Pointed(place, PointedThing("row", label))
+        reading = self.target_at("reading", x, y) if self.state.mode in ("play", "paused") else None
+        if reading:
+            return Pointed(place, PointedThing("row", reading.value))
         scale, half = picture.view.scale, picture.gauge.bar
         scene = self.state.displayed
         thing = thing_at(picture.figure, scene.pose(self.state.phase, 0), place, reach / scale, half / scale)
@@ -542,14 +541,7 @@ class Screen:
         found = Pointed(place, None if curve else thing, curve[1] if curve else None)
         return found if thing or curve else None
 
-    def chart_titled_at(self, x: float, y: float) -> str | None:
-        """Return the token of the chart whose title is under a pixel; None elsewhere."""
-        return None if self.over.hides_chart else self.last.chart_titled_at(x, y)
-
-    def polygon_at(self, x: float, y: float) -> int | None:
-        """Return the polygon under a pixel: 1 of velocities, 2 of accelerations; None elsewhere."""
-        return None if self.over.hides_chart else self.last.polygon_at(x, y)
-
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None off it."""
-        return None if self.over.hides_chart else self.last.chart_phase_at(x, y)
+        chart = self.target_at("chart", x, y)
+        return chart.value.phase_at(x) if chart else None

@@ -86,10 +86,12 @@ def _files(state: State, lines: str) -> State:
 # What keys and the mouse ask that depends on the rows that are visible, and on the folder.
 
 
-def _grid(window: Outside, shelf: Browsing) -> Grid:
+def _ahead(window: Outside) -> Grid | None:
+    """Return the grid of the open shelf as it will be drawn; None where none is open."""
     from linkanim.picture.shelf import grid
 
-    return grid(window.screen.size, shelf)
+    shelf = window.state.of(OpenShelf)
+    return grid(window.screen.size, shelf) if shelf else None
 
 
 def _put_chosen(window: Outside, _: Value) -> Iterator[Action]:
@@ -130,34 +132,25 @@ def _listed(files: Iterable[OwnFile]) -> str:
 
 def _moved(window: Outside, further: Value) -> Iterator[Action]:
     """Yield a step in a list or along the shelf, which scrolls with it."""
+    if shown := _ahead(window):
+        yield Action("top", shown.top)
     yield Action("move", further)
-    yield from _in_sight(window)
 
 
 def _row(window: Outside, rows: Value) -> Iterator[Action]:
     """Yield the action that chooses the mechanism `rows` rows further down."""
-    shelf = window.state.of(OpenShelf)
-    if shelf and isinstance(rows, int):
-        yield Action("point", _grid(window, shelf).beside(shelf.chosen, rows))
-        yield from _in_sight(window)
-
-
-def _in_sight(window: Outside) -> Iterator[Action]:
-    """Yield the action that scrolls to where the chosen entry is visible."""
-    if shelf := window.state.of(OpenShelf):
-        yield Action("top", _grid(window, shelf).top)
+    shelf, shown = window.state.of(OpenShelf), _ahead(window)
+    if shelf and shown and isinstance(rows, int):
+        yield Action("top", shown.top)
+        yield Action("point", shown.beside(shelf.chosen, rows))
 
 
 def _scroll(window: Outside, rows: Value) -> Iterator[Action]:
     """Yield the actions that scroll by `rows`; the chosen entry stays a visible one."""
-    shelf = window.state.of(OpenShelf)
-    if shelf is None or not isinstance(rows, int):
+    shelf, shown = window.state.of(OpenShelf), _ahead(window)
+    if shelf is None or not shown or not shown.rows or not isinstance(rows, int):
         return
-    before = _grid(window, shelf)
-    if not before.rows:
-        return
-    row = min(max(before.top + rows, 0), len(before.rows) - 1)
-    free = _grid(window, replace(shelf, top=row, chosen=before.rows[row][0]))
+    free = shown.scrolled(rows)
     yield Action("top", free.top)
     if not free.whole(shelf.chosen):
         # in a low window no entry may be visible as a whole
@@ -222,19 +215,21 @@ class OpenShelf(Browsing, Mode):
 
         A drag scrolls: on the pictures these follow the hand, beside them the scroll bar does.
         """
-        from linkanim.picture.shelf import grid
-
-        (x, y), drag, seen = mouse.at, mouse.drag, grid(screen.size, self)
+        (x, y), drag = mouse.at, mouse.drag
+        seen: Grid | None = next((one.value for one in screen.targets("shelf")), None)
+        if seen is None:
+            return ()
+        place = screen.number_at("entry", x, y)
         moves = mouse.far > STILL * screen.size[1]
         match gesture.kind:
             case "wheel":
                 return (Action("scroll", -gesture.notches),)
             case "down":
-                on_track = seen.track is not None and seen.track.holds(x, y)
+                on_track = screen.target_at("shelf-track", x, y) is not None
                 mouse.drag, mouse.steps = "scroll" if on_track else "shelf", seen.top
                 return _scrolled_to(seen.led_to(y), seen.top) if on_track else ()
             case "up":
-                mouse.drag, place = None, seen.at(x, y)
+                mouse.drag = None
                 if drag != "shelf" or moves:
                     return ()
                 return (Action("shelf") if place is None else Action("put", place),)
@@ -243,7 +238,6 @@ class OpenShelf(Browsing, Mode):
         if drag == "shelf":
             to = mouse.steps + round((mouse.begun[1] - y) / seen.step)
             return _scrolled_to(to, seen.top) if moves else ()
-        place = seen.at(x, y)
         return () if place is None else (Action("point", place),)
 
 

@@ -118,7 +118,7 @@ def test_the_axis_is_the_one_that_was_chosen(
     assert chart.course.title == title
     assert _share(chart, 1.0) == pytest.approx(share, abs=2e-3)
     foot = chart.foot(_pose(chart, 1.0))
-    assert chart.phase_at(foot.real, foot.imag) == pytest.approx(1.0, abs=1e-9)
+    assert chart.phase_at(foot.real) == pytest.approx(1.0, abs=1e-9)
 
 
 def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
@@ -251,11 +251,12 @@ def test_a_pixel_of_the_chart_is_a_phase_also_just_beside_its_ends(
     chart = _strip(name, "P.velocity", speed)
     area = chart.plot.area
     x = area.x + area.width / 2 if px is None else (area.x + px if px < 0 else area.right + px)
-    phase = chart.phase_at(x, area.y + 5)
-    assert phase is not None
+    (around,) = (one.place for one in chart.targets if one.kind == "chart")
+    assert around.holds(x, area.y + 5)
+    phase = chart.phase_at(x)
     assert 0 <= phase <= chart.course.period
     assert math.remainder(_share(chart, phase) - share, 1.0) == pytest.approx(0.0, abs=1e-6)
-    assert chart.phase_at(x, area.y - 20) is None
+    assert not around.holds(x, area.y - 20)
 
 
 def test_a_constant_quantity_is_a_level_line_not_noise() -> None:
@@ -324,8 +325,8 @@ def test_strips_share_their_axis_and_have_equal_plots(
     assert all(area.bottom < title.y for area, title in zip(areas, titles[1:], strict=False))
     pose = scene.pose(1.0, 2)
     assert len({round(panel.foot(pose).real, 9) for panel in strips.panels}) == 1
-    for panel, title in zip(strips.panels, titles, strict=True):
-        assert strips.titled_at(title.x + 2, title.y + 2) == panel.quantity.token
+    tokens = [one.value for one in strips.targets() if one.kind == "chart-title"]
+    assert tokens == [panel.quantity.token for panel in strips.panels]
 
 
 def test_strips_share_their_axis_at_every_speed() -> None:

@@ -60,15 +60,15 @@ def test_all_its_words_are_drawn() -> None:
     hud, surface = _hud("press"), offscreen((640, 360))
     pose = hud.scene.pose(1.0)
     surface.fill(LIGHT.background)
-    printed(surface, [Group("words", (), [*hud.still(), *hud.values(pose)])], hud.type)
-    lines = [*hud.still(), *hud.values(pose)]
+    lines = [*hud.still.captions, *hud.values(pose)]
+    printed(surface, [Group("words", (), lines)], hud.type)
     assert len(lines) > 8
     for line in lines:
         assert inked(surface, line.around(hud.type), line.colour), line.text
 
 
 def test_the_class_stands_right_below_the_title() -> None:
-    title, said, *_ = _hud("press").still()
+    title, said, *_ = _hud("press").still.captions
     assert (title.strong, said.strong) == (True, False)
     assert 0 <= said.at[1] - title.at[1] - title.size < 0.5 * said.size
 

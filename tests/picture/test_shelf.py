@@ -92,8 +92,12 @@ def test_the_chosen_mechanism_is_in_sight_in_any_window_and_nothing_overlaps(
         assert not one.inset(0.5).meets(other.inset(0.5))
     for n, cell in found.cells.items():
         assert (cell.x >= 0, cell.right <= size[0]) == (True, True)
-        assert found.at(cell.x + 1, cell.y + 1) == (n if cell.y + 1 <= found.room.bottom else None)
-    assert found.at(-5.0, -5.0) is None
+        at = [
+            one.value
+            for one in found.targets
+            if one.kind == "entry" and one.place.holds(cell.x + 1, cell.y + 1)
+        ]
+        assert at == ([n] if cell.y + 1 <= found.room.bottom else [])
     full = max(len(row) for row in found.rows)
     wide = full * next(iter(found.cells.values())).width
     assert 0.9 * size[0] < wide < size[0]

@@ -18,7 +18,7 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 from linkanim.errors import BadInput
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
-from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.items import Caption, Group, Halo, Target
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
@@ -208,14 +208,19 @@ def test_the_chart_tells_the_phase_under_a_pixel() -> None:
     painter = Picture(scene, (640, 360), Look(chart="rocker.angle"))
     assert painter.layout.chart
     middle = painter.layout.chart.middle
-    found = [painter.chart_phase_at(px, middle.imag) for px in range(640)]
-    low, *_, high = (phase for phase in found if phase is not None)
-    assert painter.chart_phase_at(*painter.crank_pin_px(scene.pose(0.0))) is None
+    (chart,) = _charts(painter)
+    low, *_, high = (chart.value.phase_at(px) for px in range(640) if chart.place.holds(px, middle.imag))
+    assert not chart.place.holds(*painter.crank_pin_px(scene.pose(0.0)))
     # from the crank's angle 0 through two turns; the drive starts at 60°
     for phase, turned in ((low, 0.0), (high, 2 * math.tau)):
         away = math.remainder(scene.linkage.drive.start + phase - turned, scene.period)
         assert away == pytest.approx(0.0, abs=0.1)
-    assert Picture(scene, (640, 360), Look()).chart_phase_at(middle.real, middle.imag) is None
+    assert _charts(Picture(scene, (640, 360), Look())) == []
+
+
+def _charts(picture: Picture) -> list[Target]:
+    groups = picture.groups(picture.scene.pose(0.0))
+    return [one for group in groups for one in group.targets if one.kind == "chart"]
 
 
 def test_an_unknown_chart_is_answered_with_the_list() -> None:

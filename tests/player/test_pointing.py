@@ -210,8 +210,8 @@ def rows_shown(here: Path) -> Iterator[Player]:
 
 
 def row_of(player: Player, label: str) -> tuple[float, float]:
-    picture = player.window.screen.last
-    return next((40.0, float(y)) for y in range(20, 400, 2) if picture.label_at(40, y) == label)
+    places = (one.place for one in player.window.screen.targets("reading") if one.value == label)
+    return 40.0, next(places).middle.imag
 
 
 def click(player: Player, at: tuple[float, float]) -> None:
@@ -278,21 +278,22 @@ def test_every_row_of_numbers_is_under_the_mouse_at_its_place(rows_shown: Player
     assert picture.composition.block.rows
     for label in picture.composition.block.rows:
         _, y = row_of(rows_shown, label)
-        caption = next(one for one in picture._hud.still() if one.text == label)
-        assert abs(caption.at[1] - y) <= 0.5 * caption.size
+        caption = next(one for one in picture._hud.still.captions if one.text == label)
+        assert abs(caption.at[1] + 0.5 * caption.size - y) <= 0.5 * caption.size
 
 
 def test_a_click_on_a_polygon_makes_it_large_and_another_shows_both(player: Player) -> None:
     player.press(pygame.K_p)
     shown = player.window.screen
     for order in (1, 2):
-        rects = {one.order: one.rect for one in shown.last._polygons}
-        assert sorted(rects) == [1, 2]
-        at = rects[1 if order == 1 else 2].middle
-        player.drag((at.real, at.imag))
+        player.settle()
+        places = {one.value: one.place.middle for one in shown.targets("polygon")}
+        assert sorted(places) == [1, 2]
+        player.drag((places[order].real, places[order].imag))
         assert player.state.look.large_polygon == order
-        (alone,) = shown.last._polygons
-        player.drag((alone.rect.middle.real, alone.rect.middle.imag))
+        player.settle()
+        (alone,) = shown.targets("polygon")
+        player.drag((alone.place.middle.real, alone.place.middle.imag))
         assert player.state.look.large_polygon == 0
     player.press(pygame.K_p, pygame.KMOD_LSHIFT)
     assert player.state.look.large_polygon == 1
