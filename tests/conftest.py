@@ -26,6 +26,9 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 # its greeting would follow the closing line, when the processes that run the tests end
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
+# What is said is English, whatever the machine speaks.
+os.environ["LANGUAGE"] = "en"
+
 # A warning is an error in processes that tests start, too, but for those that Python does not show by itself.
 os.environ["PYTHONWARNINGS"] = "error,ignore::ResourceWarning"
 

@@ -15,6 +15,7 @@ from linkanim.cli.options import ARGUMENTS, Parser, join_negative
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
+from linkanim.words import ENGLISH, language_of, speaking
 
 _WITHOUT_PYGAME = (
     "solve",
@@ -42,12 +43,16 @@ def parse(argv: Sequence[str] | None = None) -> Namespace:
 
 
 def run(chosen: Namespace) -> None:
-    """Import the module of the chosen command, and only that, and let it do its work."""
+    """Import the module of the chosen command, and only that, and let it do its work in its language.
+
+    A command that says nothing in the reader's language has no option for it.
+    """
     if chosen.command not in _WITHOUT_PYGAME:
         refuse_mixed_pygame()
     module = f"linkanim.cli.commands.{chosen.command.replace('-', '_')}"
     work = cast(Callable[[Namespace], None], import_module(module).run)
-    work(chosen)
+    with speaking((chosen.lang or language_of()) if "lang" in chosen else ENGLISH):
+        work(chosen)
 
 
 def build(only: str | None = None) -> Parser:

@@ -23,6 +23,7 @@ from linkanim.intake import meant
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
 from linkanim.picture.purpose import PURPOSES
 from linkanim.units import shown
+from linkanim.words import LANGUAGES, language_named
 from linkanim.workshop.media import PAGES, WAYS
 
 # What the options' texts mean: sizes, counts, sweeps; each raises `BadInput` in one sentence.
@@ -96,6 +97,14 @@ def positive(text: str) -> float:
     if value <= 0:
         raise BadInput(f"{shown(text)} is not a number greater than zero")
     return value
+
+
+def language(text: str) -> str:
+    """Read the name of a language, such as zh_TW."""
+    found = language_named(text)
+    if found is None:
+        raise BadInput(f"{shown(text)} is not a language that is here; there are {', '.join(LANGUAGES)}")
+    return found
 
 
 T = TypeVar("T")
@@ -474,6 +483,11 @@ _KIND_SOUGHT = _takes(
     default="four-bar",
     help="the kind of linkage (default: four-bar)",
 )
+_LANG = _value(
+    "--lang LANG",
+    language,
+    f"the language of its words: {', '.join(LANGUAGES)} (default: the environment's, by LANGUAGE or LANG)",
+)
 _SIZE = _value("--size WxH", size, "width and height in pixels (default: 1280x720)")
 _WINDOW_SIZE = _value("--size WxH", size, "the size of the window in pixels")
 _PURPOSE = _takes(
@@ -560,11 +574,13 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             help="change pictures at once, without fades and moving views (default: as the desktop asks)",
         ),
         _look("play"),
+        _LANG,
     ),
     "new": (
         _value("--photo FILE", Path, "lay a photograph behind the sheet"),
         _WINDOW_SIZE,
         _takes("--theme", choices=("light", "dark"), default="light", help="the colours (default: light)"),
+        _LANG,
     ),
     "record": (
         _scene(", of a tape or of a lesson"),
@@ -594,6 +610,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--photo", "show the photograph of a tape on which something is built"),
         _flag("--no-clobber", "write over the file of -o only where linkanim wrote it and nobody changed it"),
         _flag("--progress", "show the progress even if stderr is not a terminal"),
+        _LANG,
     ),
     "solve": (
         _SCENE,
@@ -645,6 +662,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--polar", "draw a vector's head round a turn, as a bearing's force is drawn"),
         _SIZE,
         _look("chart"),
+        _LANG,
     ),
     "report": (
         _SCENE,
@@ -671,6 +689,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--no-derivation", "leave the derivation out: positions and differentiated loops in symbols"),
         _flag("--all", "add every quantity, and a chart of each"),
         _look("report"),
+        _LANG,
     ),
     "info": (
         _SCENE,
@@ -704,6 +723,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _SCENE,
         _output("write OUT.gif, in which all run, OUT.png, or a scene file for each, OUT.toml"),
         _flag("--json", "print a list with an object for each closure; angles in radians"),
+        _LANG,
     ),
     "convert": (
         _value(
@@ -734,6 +754,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--poses N", poses, "draw N faint poses of the period behind it"),
         _CONSTRUCTION,
         _usually(hud=False, material="flat"),
+        _LANG,
     ),
     "explain": (
         _SCENE,
@@ -761,6 +782,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "take other round lengths with the same kind of motion; a seed always gives the same lengths",
         ),
         _look("explain"),
+        _LANG,
     ),
     "quiz": (
         _scene("; or a chapter, as sliders; or all", metavar="SCENE|CHAPTER"),
@@ -770,6 +792,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("-n N", whole, "the number of questions (default: 10)", 10, dest="count"),
         _value("--seed N", whole, "a seed always gives the same questions (default: 0)", 0),
         _flag("--json", "print a list of objects"),
+        _LANG,
     ),
     "share": (
         _scene(nargs="?"),
@@ -779,6 +802,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _STATIC,
         _look("share"),
         _usually(theme=None),
+        _LANG,
     ),
     "path": (
         _value(
@@ -955,9 +979,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _flag("--bridge", "let fixed pins hang from a plate above if they are in the way below"),
         _flag("--json", "print parts and pins as one object; lengths in mm"),
+        _LANG,
     ),
     "gallery": (
         _value("--into FOLDER", Path, "the folder to write to (default: recordings)", Path("recordings")),
+        _LANG,
     ),
     "bench": (
         _either(

@@ -175,8 +175,8 @@ class Making:
         self._room.cleanup()
 
     def _reason(self) -> str:
-        said = self._said(self._log).strip().splitlines() or ["the search for layers has ended"]
-        return said[-1].removeprefix("linkanim: ")
+        lines = self._said(self._log).strip().splitlines() or ["the search for layers has ended"]
+        return lines[-1].removeprefix("linkanim: ")
 
     def _said(self, log: BinaryIO) -> str:
         log.seek(0)

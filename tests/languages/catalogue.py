@@ -1,0 +1,129 @@
+"""Bring the catalogues of all languages in step with the sentences of the code.
+
+`python tests/languages/catalogue.py` reads the sentences with Babel, and writes each `.po` anew, with what it
+had for them, and the `.mo` beside it. Named after it are JSON files of translations that are filled in:
+`{"a sentence": ["in Traditional Chinese", "in Simplified Chinese"]}`; a context stands before the sentence,
+with "\\u0004" between.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from functools import cache
+from pathlib import Path
+
+from babel.messages import Catalog
+from babel.messages.extract import extract_from_dir
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po, write_po
+
+import linkanim
+from linkanim.frozen import NamedTuple
+from linkanim.words import ENGLISH, FOLDER, LANGUAGES
+
+TRANSLATED = tuple(language for language in LANGUAGES if language != ENGLISH)
+_KEYWORDS = {"said": None, "to_say": None, "said_as": ((1, "c"), 2), "said_many": (1, 2)}
+_WRITTEN = datetime(2026, 1, 1, tzinfo=UTC)
+
+
+class Sentence(NamedTuple):
+    """A sentence of the code: its context, in one and in many where it is counted, and where it stands."""
+
+    context: str | None
+    one: str
+    many: str | None
+    where: str
+
+    @property
+    def key(self) -> tuple[str | None, str]:
+        """What a catalogue has it under."""
+        return self.context, self.one
+
+
+@cache
+def sentences() -> dict[tuple[str | None, str], Sentence]:
+    """Return every sentence that is said, by what a catalogue has it under."""
+    found = {one.key: one for one in _of_tables() if one.one}
+    return found | {one.key: one for one in _of_code()}
+
+
+def _of_code() -> Iterator[Sentence]:
+    root = Path(linkanim.__file__).parent
+    files = extract_from_dir(root, method_map=[("**.py", "python")], keywords=_KEYWORDS)
+    for file, line, message, _, context in files:
+        one, many = message if isinstance(message, tuple) else (message, None)
+        yield Sentence(context, one, many, f"{file}:{line}")
+
+
+def _of_tables() -> Iterator[Sentence]:
+    """Yield the sentences of tables, which are said where they are shown."""
+    from linkanim.picture.look import TOGGLES
+
+    for name, toggle in TOGGLES.items():
+        for words in (toggle.title, *toggle.answers):
+            yield Sentence(None, words, None, f"TOGGLES[{name!r}]")
+
+
+def path_of(language: str, suffix: str) -> Path:
+    """Return where the catalogue of a language lies, `.po` or `.mo`."""
+    return FOLDER / language / "LC_MESSAGES" / f"linkanim{suffix}"
+
+
+def read(language: str) -> Catalog:
+    """Return the catalogue of a language as translators have it."""
+    with path_of(language, ".po").open("rb") as file:
+        return read_po(file, locale=language)
+
+
+def in_step(language: str, old: Catalog, fill: dict[str, str]) -> Catalog:
+    """Return a catalogue of exactly the sentences of the code, filled from what is known."""
+    new = Catalog(
+        language,
+        project="linkanim",
+        version=linkanim.__version__,
+        creation_date=_WRITTEN,
+        revision_date=_WRITTEN,
+        fuzzy=False,
+    )
+    for context, one in sorted(sentences(), key=lambda key: (key[1], key[0] or "")):
+        many = sentences()[context, one].many
+        had = old.get(one, context)
+        words = fill.get(f"{context}\4{one}" if context else one) or (first(had.string) if had else "")
+        new.add((one, many) if many else one, (words,) if many else words, context=context)
+    return new
+
+
+def first(words: object) -> str:
+    """Return the first form of a sentence that may have several; "" where there is none."""
+    return words if isinstance(words, str) else str(words[0]) if isinstance(words, (tuple, list)) else ""
+
+
+def write(catalogue: Catalog, language: str) -> None:
+    """Write a catalogue: for translators, and for the program."""
+    for suffix in (".po", ".mo"):
+        path_of(language, suffix).parent.mkdir(parents=True, exist_ok=True)
+        with path_of(language, suffix).open("wb") as file:
+            if suffix == ".mo":
+                write_mo(file, catalogue)
+            else:
+                write_po(file, catalogue, width=110, no_location=True)
+
+
+def main(files: list[str]) -> None:
+    """Write all catalogues anew, and say how much each of them lacks."""
+    fill: dict[str, list[str]] = {}
+    for file in files:
+        fill |= json.loads(Path(file).read_text("utf-8"))
+    for n, language in enumerate(TRANSLATED):
+        old = read(language) if path_of(language, ".po").exists() else Catalog(language)
+        new = in_step(language, old, {one: words[n] for one, words in fill.items() if words[n]})
+        write(new, language)
+        lacking = [message.id for message in new if not first(message.string)]
+        print(f"{language}: {len(new)} sentences, {len(lacking)} without words")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
