@@ -392,7 +392,8 @@ class Measure(NamedTuple):
     `name` ends the token, and is the attribute of Motion that holds it, if one does; `key` is the name in
     JSON and `heading` that in a table of plain letters. In `unit`, `{}` stands for the unit of length.
     `order` counts derivatives in time. `read` takes a Motion or a Pose and the part's name, and returns
-    values as `cleaned` does. Where its `divisor` changes sign the measure may be unbounded.
+    computed values, rounding errors for zeros among them. Where its `divisor` changes sign the measure may be
+    unbounded.
     """
 
     name: str
@@ -418,7 +419,7 @@ def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: 
     key = name.removeprefix("travel_").removeprefix("com_")
 
     def read(motion: Any, part: str) -> Any:
-        return as_output(motion, getattr(motion, name)[part], unit, order)
+        return getattr(motion, name)[part]
 
     return Measure(name, key, symbol, words, unit, order, heading or symbol, read)
 
@@ -458,7 +459,7 @@ def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, ...]:
     second = "second_coefficient", "2", f"{symbol}′", words, units[1], 0, f"d2{letter}/d{plain}2"
 
     def read(place: int) -> Callable[[Any, str], Any]:
-        return lambda motion, part: as_output(motion, motion.coefficient[part][place], units[place], 0)
+        return lambda motion, part: motion.coefficient[part][place]
 
     return Measure(*first, read(0)), Measure(*second, read(1))
 
@@ -480,10 +481,9 @@ def _strut(motion: Any, item: Spring | Damper, values: Any, name: str) -> Any:
     if name == "force":
         return cleaned(value, force_rounding(motion, item))
     if name in ("length", "rate"):
-        return as_output(motion, value, "{}" if name == "length" else "{}/s", int(name == "rate"))
+        return value
     nowhere = np.equal(as_output(motion, values.length, "{}", 0), 0.0)
-    order = int(name == "direction_rate")
-    return np.where(nowhere, np.nan, as_output(motion, value, "rad/s" if order else "rad", order))[()]
+    return np.where(nowhere, np.nan, value)[()]
 
 
 def force_rounding(motion: Any, item: Spring | Damper) -> Any:
@@ -611,8 +611,7 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
     def bent(name: str, symbol: str, words: str, unit: str, order: int, work: Callable[..., Any]) -> Measure:
         def read(motion: Any, part: str) -> Any:
             with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
-                value = work(motion, prefix, part)
-            return as_output(motion, value, unit, order)
+                return work(motion, prefix, part)
 
         def turning(motion: Any, part: str) -> Any:
             return cross(*_rates(motion, prefix, part))
@@ -663,7 +662,7 @@ def slip_of(motion: Any, link: str) -> tuple[Any, Any, Any, Any]:
 def _of_slip(place: int, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
     def read(motion: Any, link: str) -> Any:
         with np.errstate(invalid="ignore"):
-            return as_output(motion, slip_of(motion, link)[place] + 0.0 * motion.phase, unit, order)
+            return slip_of(motion, link)[place] + 0.0 * motion.phase
 
     return Measure(name, name, symbol, words, unit, order, name, read)
 

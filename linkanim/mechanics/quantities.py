@@ -143,10 +143,10 @@ Path = tuple[str | int, ...]
 class Quantity:
     """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
 
-    `read` takes a Motion (arrays) or a Pose (floats) and says what it is, in radians and the scene's unit of
-    length: one value an instant, or one in each of `columns`; 0.0 is exactly nothing, `inf` unbounded, `nan`
-    no value (`measures.cleaned`). `unit`, `order` and `divisor` are as in `Measure`. `path` is its place in
-    JSON, numbers being places in a list; it is empty for a quantity that follows from others in JSON.
+    `computed` takes a Motion (arrays) or a Pose (floats) and works it out, in radians and the scene's unit of
+    length: one value an instant, or one in each of `columns`. `unit`, `order` and `divisor` are as in
+    `Measure`. `path` is its place in JSON, numbers being places in a list; it is empty for a quantity that
+    follows from others in JSON.
     """
 
     token: str
@@ -154,10 +154,15 @@ class Quantity:
     words: str
     unit: str
     order: int
-    read: Callable[[Any], Any]
+    computed: Callable[[Any], Any]
     columns: tuple[str, ...] = ("",)
     path: Path = ()
     divisor: Callable[[Any], Any] | None = None
+
+    def read(self, motion: Any) -> Any:
+        """Return what it is: 0.0 is exactly nothing, `inf` unbounded, `nan` no value, None not known."""
+        value = self.computed(motion)
+        return None if value is None else as_output(motion, value, self.unit, self.order)
 
     def shown(self, motion: Any) -> Any:
         """Return the values as people read them: angles in degrees."""
@@ -323,7 +328,7 @@ def _of_coriolis(link: str, joint: str) -> Quantity:
 
 
 def _pole(motion: Any, name: str) -> Any:
-    place = as_output(motion, pole(motion, motion.mechanism.linkage.body(name)), "{}", 0)
+    place = pole(motion, motion.mechanism.linkage.body(name))
     return place if isinstance(motion.phase, float) else np.stack(place, axis=-1)
 
 
@@ -473,11 +478,7 @@ def _whole(
     token: str, symbol: str, words: str, unit: str, order: int, read: Callable[[Any], Any]
 ) -> Quantity:
     """Return a quantity of the linkage as a whole, which stands in JSON under its own token."""
-
-    def told(motion: Any) -> Any:
-        return as_output(motion, read(motion), unit, order)
-
-    return Quantity(token, symbol, words, unit, order, told, path=tuple(token.split(".")))
+    return Quantity(token, symbol, words, unit, order, read, path=tuple(token.split(".")))
 
 
 def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
