@@ -17,13 +17,14 @@ from contextvars import ContextVar
 from functools import cache, lru_cache, wraps
 from gettext import GNUTranslations, NullTranslations
 from pathlib import Path
-from typing import ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, TypeVar
 
 ENGLISH = "en"
 LANGUAGES: dict[str, str] = {ENGLISH: "English", "zh_TW": "繁體中文", "zh_CN": "简体中文"}
 """The languages, each by its own name."""
 FOLDER = Path(__file__).parent / "languages"
 """Where catalogues lie: `zh_TW/LC_MESSAGES/linkanim.po` and `.mo`."""
+_IN_HTML = {"zh_TW": "zh-Hant", "zh_CN": "zh-Hans"}
 _TRADITIONAL = ("tw", "hk", "mo", "hant")
 _SPOKEN: ContextVar[str] = ContextVar("language", default=ENGLISH)
 
@@ -66,6 +67,16 @@ def row_said(words: Sequence[str]) -> str:
     return said("{most} and {last}", most=most, last=last)
 
 
+def sentences(*whole: str) -> str:
+    """Return whole sentences one after the other; empty ones are left out."""
+    return said_as("between sentences", " ").join(filter(None, whole))
+
+
+def html_language() -> str:
+    """Return the language as a page of HTML has it: "en", "zh-Hant"."""
+    return _IN_HTML.get(spoken(), spoken())
+
+
 def spoken() -> str:
     """Return the language that is spoken."""
     return _SPOKEN.get()
@@ -96,6 +107,19 @@ def kept_as_said(most: int) -> Callable[[Callable[Given, Found]], Callable[Given
         return keeper
 
     return keeping
+
+
+class cached_as_said(Generic[Found]):  # noqa: N801 -- as cached_property
+    """A property that is worked out once for each language in which it is read."""
+
+    def __init__(self, work: Callable[[Any], Found]) -> None:
+        self.work, self.__doc__ = work, work.__doc__
+
+    def __get__(self, owner: object, _: object = None) -> Found:
+        known: dict[str, Found] = owner.__dict__.setdefault(f"{self.work.__name__} as said", {})
+        if spoken() not in known:
+            known[spoken()] = self.work(owner)
+        return known[spoken()]
 
 
 def language_of(environment: Mapping[str, str] = os.environ) -> str:

@@ -38,6 +38,7 @@ from linkanim.explain.steps import (
 )
 from linkanim.explain.tikz import free_tikz, tikz
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.words import html_language, said, said_many
 
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.
 
@@ -181,9 +182,13 @@ class QuestionParts(NamedTuple):
     formulas: str
 
 
+def _marks(one: QuestionParts) -> str:
+    return said_many("{count} mark", "{count} marks", one.marks)
+
+
 def _plain_question(one: QuestionParts) -> str:
     """Return a question in Markdown."""
-    head = f"**{one.number}.** {one.text} ({one.marks} marks)"
+    head = f"**{one.number}.** {one.text} ({_marks(one)})"
     return "\n\n".join(part for part in (head, one.hint, one.formulas, one.answers) if part)
 
 
@@ -196,8 +201,8 @@ class DocumentForm:
     joins the steps of a chapter. `new_page` begins a page.
 
     Of an exercise, `beside` sets what is given beside the figure, `question` a question, and `answers` the
-    numbers to be found, with room to write; `named` is the line for name and marks, where `{}` are the most,
-    and `sheet` makes its pages.
+    numbers to be found, with room to write; `named` is the line for name and marks, by the most of them, and
+    `sheet` makes its pages.
     """
 
     how: Notation
@@ -216,7 +221,7 @@ class DocumentForm:
     beside: Callable[[str, str], str] = lambda one, other: "\n\n".join(filter(None, (one, other)))
     question: Callable[[QuestionParts], str] = _plain_question
     answers: Callable[[list[str]], str] = "\n\n".join
-    named: str = ""
+    named: Callable[[int], str] = str
     sheet: Callable[[list[str]], str] = "\n\n".join
 
 
@@ -242,7 +247,7 @@ def _by_owner(found: Solution) -> Iterator[Outcome]:
 
 def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield the list of all results, with its heading."""
-    yield form.heading(2, "All results")
+    yield form.heading(2, said("All results"))
     solved = found.solved
     yield form.listed([listed(short(one.value, solved), one.unit, "", form) for one in _by_owner(found)])
 
@@ -251,7 +256,7 @@ def where_words(found: Solution, form: DocumentForm) -> str:
     """Return the paragraph that says where the input is."""
     called, place = found.where
     symbol = form.text(called) if isinstance(called, str) else form.inline(form.how.symbol(called))
-    return form.paragraph(f"{form.text('At')} {symbol} = {form.text(place)}.")
+    return form.paragraph(said("At {place}.", place=f"{symbol} = {form.text(place)}"))
 
 
 def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:
@@ -261,7 +266,7 @@ def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Ite
         drawn = form.figure(found) if chapter is found.loop_chapter else ""
         if chapter is found.synthesis_chapter:
             yield form.construction(found)
-        if chapter.title == FORCES and found.bodies:
+        if chapter.title == said(FORCES) and found.bodies:
             yield form.free(found)
         written = ["\n\n".join(step_parts(step, form, blank)) for step in chapter.steps]
         yield form.steps([part for part in (drawn, *written) if part])
@@ -273,13 +278,14 @@ _DERIVED = ("Positions", "The same by the half-angle form", "Kinematic coefficie
 
 def derivation(found: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield the parts of the derivation in symbols: positions, half angles and the differentiated loops."""
+    titles = [*map(said, _DERIVED)]
     for chapter in found.chapters:
-        if chapter.title in _DERIVED:
+        if chapter.title in titles:
             yield form.heading(3, chapter.title)
             steps = (
                 replace(step, items=tuple(map(_in_symbols, step.items)))
                 for step in chapter.steps
-                if step.title != INPUT_TITLE
+                if step.title != said(INPUT_TITLE)
             )
             yield form.steps(["\n\n".join(step_parts(step, form, blank=True)) for step in steps])
 
@@ -313,7 +319,9 @@ def set_items(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[st
             yield form.paragraph(form.text(item.text))
         elif isinstance(item, Unknown):
             symbols = (form.inline(typeset(e, form.how)) for e in item.symbols)
-            yield form.paragraph(f"{form.text(item.words)}: {', '.join(symbols)}")
+            yield form.paragraph(
+                said("{what}: {these}", what=form.text(item.words), these=", ".join(symbols))
+            )
 
 
 def listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[str, str]:
@@ -342,7 +350,7 @@ def _html_page(title: str, body: str) -> str:
     lights = "\n".join(map(str.strip, _LIGHTS.splitlines()[2:]))
     script = f"<script>{lights}</script>\n" if " data-i=" in body else ""
     inside = f"<body>\n<main>\n{body}\n</main>\n{script}</body>"
-    return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
+    return f"<!doctype html>\n<html lang='{html_language()}'><head>{head}</head>{inside}</html>\n"
 
 
 _LIGHTS = r"""
@@ -411,7 +419,7 @@ def _html_steps(steps: list[str]) -> str:
 
 def _html_question(one: QuestionParts) -> str:
     """Return a question: on paper those of a page share the room that is left, by their marks."""
-    marks = f"<span class='marks'>{one.marks} marks</span>"
+    marks = f"<span class='marks'>{_marks(one)}</span>"
     head = f"<p>{marks}<b>{one.number}</b> {one.text}</p>"
     hint = f"<p class='hint'>{one.hint}</p>" if one.hint else ""
     room = one.formulas or "<div class='room'></div>"
@@ -446,6 +454,11 @@ def _lit_symbol(symbol: Symbol) -> str:
     return f"<mrow data-of='vector:{symbol.letter}_{escape(index)}'>{written}</mrow>"
 
 
+def _signed(most: int) -> tuple[str, str, str]:
+    """Return what the line at the top of a sheet asks for."""
+    return said("Name"), said("Date"), said("Marks, of {most}", most=most)
+
+
 _PULLS = frozenset("FNQZCM")
 HTML = DocumentForm(
     how=MATHML,
@@ -461,7 +474,7 @@ HTML = DocumentForm(
     beside=lambda one, other: f"<div class='task'>\n{one}\n<div>{other}</div>\n</div>",
     question=_html_question,
     answers=lambda found: f"<p class='answers'>{''.join(f'<span>{one}</span>' for one in found)}</p>",
-    named="<p class='signed'><span>Name</span><span>Date</span><span>Marks, of {}</span></p>",
+    named=lambda most: f"<p class='signed'>{''.join(f'<span>{one}</span>' for one in _signed(most))}</p>",
     sheet=lambda pages: "\n".join(f"<div class='page'>\n{one}\n</div>" for one in pages),
 )
 
@@ -525,7 +538,7 @@ def _latex_page(_: str, body: str) -> str:
 
 
 def _latex_question(one: QuestionParts) -> str:
-    head = f"\\textbf{{{one.number}}}\\quad {one.text} \\hfill ({one.marks} marks)"
+    head = f"\\textbf{{{one.number}}}\\quad {one.text} \\hfill ({_marks(one)})"
     room = one.formulas or f"\\vspace*{{\\stretch{{{one.marks}}}}}"
     return "\n\n".join(part for part in (head, one.hint, room, one.answers) if part)
 
@@ -546,7 +559,7 @@ TEX = DocumentForm(
     answers=lambda found: (
         r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{one}}}" for one in found) + r"\end{flushleft}"
     ),
-    named=r"Name \hrulefill\ Date \hrulefill\ Marks \hrulefill\ of {}",
+    named=lambda most: "\\ ".join(rf"{one} \hrulefill" for one in _signed(most)),
     sheet="\n\n\\newpage\n\n".join,
 )
 
@@ -591,6 +604,6 @@ MARKDOWN = replace(
     new_page="",
     question=_plain_question,
     answers=lambda found: "\n".join(f"- {one}" for one in found),
-    named="Name: ____ Date: ____ Marks: ____ of {}",
+    named=lambda most: " ".join(f"{one}: ____" for one in _signed(most)),
     sheet="\n\n".join,
 )

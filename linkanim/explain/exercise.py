@@ -18,7 +18,8 @@ from linkanim.explain.documents import (
 from linkanim.explain.formula import Symbol, typeset
 from linkanim.explain.questions import ExamAnswer, ExamQuestion, given, questions
 from linkanim.explain.solution import TOLD, Solution
-from linkanim.explain.steps import Equation, Given
+from linkanim.explain.steps import Equation, Given, marked
+from linkanim.words import said, sentences, to_say
 
 Level = Literal["drawing", "hints", "formulas"]
 """The help that an exercise gives: nothing but the drawing, a hint to each question, or its formulas."""
@@ -28,7 +29,7 @@ _FIRST_PAGE = 0.34
 """The share of the marks on the first of two pages, which has the figure as well."""
 _ONE_PAGE = 8
 """The most marks of an exercise on one page."""
-_DIGITS = {4: "four", 5: "five"}
+_DIGITS = {4: to_say("four"), 5: to_say("five")}
 
 
 def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "drawing") -> str:
@@ -46,7 +47,7 @@ def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "d
     for title, found, some in zip(titles, versions, asked, strict=True):
         parts += [
             form.new_page,
-            form.heading(1, f"Key: {title}"),
+            form.heading(1, said("Key: {title}", title=title)),
             where_words(found, form),
             *_key(found, some, form),
         ]
@@ -62,7 +63,7 @@ def _pages(
     first = sum(share <= _FIRST_PAGE for share in shares) or 1
     first = len(marks) if sum(marks) <= _ONE_PAGE else first
     written = [_question(n, one, form, level) for n, one in enumerate(asked, 1)]
-    head = [form.heading(1, title), form.named.format(sum(marks)), _where(found, form)]
+    head = [form.heading(1, title), form.named(sum(marks)), _where(found, form)]
     task = form.beside(form.figure(found), "\n\n".join(_given(found, asked, form)))
     pages = ([*head, task, *written[:first]], written[first:])
     yield from ("\n\n".join(part for part in page if part) for page in pages if page)
@@ -71,14 +72,20 @@ def _pages(
 def _where(found: Solution, form: DocumentForm) -> str:
     """Return where the linkage is, and the rules for all numbers of the sheet, told once."""
     pins = [joint.name for joint in found.request.scene.linkage.joints if found.places[joint.name] == 0]
-    origin = f" from \x02{pins[0]}\x03" if pins else ""
     steady = not (found.request.acceleration or found.request.swings)
     return form.paragraph(
         form.text(
-            f"x points to the right and y upwards{origin}; angles are counted counterclockwise from the x "
-            "axis, and so are angular velocities. The numbers given are exact; give results in "
-            f"{_DIGITS[TOLD]} significant digits."
-            f"{' The velocity of the input is constant.' * steady}"
+            sentences(
+                said("x points to the right and y upwards from {pin}.", pin=marked(pins[0]))
+                if pins
+                else said("x points to the right and y upwards."),
+                said(
+                    "Angles are counted counterclockwise from the x axis, and so are angular velocities. "
+                    "The numbers given are exact; give results in {digits} significant digits.",
+                    digits=said(_DIGITS[TOLD]),
+                ),
+                said("The velocity of the input is constant.") if steady else "",
+            )
         )
     )
 
@@ -101,7 +108,7 @@ def _question(number: int, one: ExamQuestion, form: DocumentForm, level: Level) 
     formulas = ""
     if level == "formulas":
         formulas = form.steps(["\n\n".join(step_parts(step, form, blank=True)) for step in one.way])
-    hint = form.text(f"Hint: {one.hint}") if level == "hints" and one.hint else ""
+    hint = form.text(said("Hint: {hint}", hint=one.hint)) if level == "hints" and one.hint else ""
     # where the formulas stand they end in the answers
     blanks = [] if formulas else [_open(answer, form) for answer in one.answers]
     answers = form.answers(blanks) if blanks else ""

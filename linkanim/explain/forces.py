@@ -39,6 +39,7 @@ from linkanim.explain.steps import (
     System,
     Unknown,
     Words,
+    joint_title,
     marked,
     rounded,
 )
@@ -61,6 +62,7 @@ from linkanim.mechanics.linkage import (
 from linkanim.mechanics.measures import loaded
 from linkanim.mechanics.quantities import link_labels
 from linkanim.mechanics.reactions import GROUND, Member, contact, member_of, members, named_at
+from linkanim.words import name_said, said, sentences, to_say
 
 _MOST_UNKNOWN = 12
 """The most unknowns of a system that is written out as a matrix."""
@@ -74,10 +76,10 @@ class Acting(NamedTuple):
     force: Components
 
 
-_SENSES = (
-    "Unknown forces are taken to the right and up, those of guides to the left of their lines, couples "
-    "counter-clockwise. Where a result is negative, it points the other way; the bodies are drawn with the "
-    "forces as they are."
+_SENSES = to_say(
+    "Unknown forces are taken to the right and up, those of guides to the left of their "
+    "lines, couples counter-clockwise. Where a result is negative, it points the other "
+    "way; the bodies are drawn with the forces as they are."
 )
 
 
@@ -288,8 +290,13 @@ def _bars(joint: RRR, balance: Balance) -> None:
     b1, b2 = here - points[first], here - points[last]
     labels = balance.label(one, joint.name), balance.label(other, joint.name)
     balance.say(
-        f"Moments about {marked(first)} and {marked(last)} leave two equations for the force in "
-        f"{marked(joint.name)}; the other forces on both bars follow from their sums."
+        said(
+            "Moments about {first} and {last} leave two equations for the force in {joint}; the "
+            "other forces on both bars follow from their sums.",
+            first=marked(first),
+            last=marked(last),
+            joint=marked(joint.name),
+        )
     )
     m1 = balance.moment_line(Symbol("M", f"{first},{labels[0]}"), balance.moment(one, points[first]))
     given = balance.moment(other, points[last]) + cross(b2, pull)
@@ -343,8 +350,12 @@ def _bar_to_slider(joint: RRP, balance: Balance) -> None:
     normal = Components(-u.y, u.x)
     index = f"{name},{balance.label(bar, name)}"
     balance.say(
-        f"What acts on the block along its guide gives one component of the force in {marked(name)}, moments "
-        f"about {marked(joint.end)} the one across."
+        said(
+            "What acts on the block along its guide gives one component of the force in {name}, "
+            "moments about {end} the one across.",
+            name=marked(name),
+            end=marked(joint.end),
+        )
     )
     along_ = balance.newtons(Symbol("F", f"{index}t"), dot(pull + balance.total(block), u))
     m = balance.moment_line(
@@ -379,7 +390,7 @@ def _yoke(joint: RPP, balance: Balance) -> None:
     _pinned(joint.name, block, balance)
     u = balance.direction(joint.name, joint.line)
     slot = balance.work.stated(
-        Symbol("δ", joint.name), joint.slot, Powers(angle=True), "its slot from its guide"
+        Symbol("δ", joint.name), joint.slot, Powers(angle=True), said("its slot from its guide")
     )
     push = balance.newtons(
         Symbol("S", f"{joint.pin},{balance.label(block, joint.name)}"),
@@ -503,23 +514,23 @@ def forces(balance: Balance, about: str | None = None) -> Forces:
     """Return the steps on what each body carries; moments about the joint `about` where a body has it."""
     linkage = balance.linkage
     if not math.isfinite(balance.size):
-        said = "Forces grow without bound here: a lever vanishes under load. Take a pose beside it."
-        return Forces((Step("", (Words(said),)),), (), ())
+        text = said("Forces grow without bound here: a lever vanishes under load. Take a pose beside it.")
+        return Forces((Step("", (Words(text),)),), (), ())
     known = _written(balance, lambda: _loads(balance))
     solved = []
     for joint in reversed(linkage.joints):
         if not joint.fixed:
             kind = _KINDS.get(type(joint), _point)
             lines = _written(balance, lambda kind=kind, joint=joint: kind(joint, balance))  # type: ignore[misc]
-            solved.append(Step(f"Joint {marked(joint.name)}", lines))
+            solved.append(Step(joint_title(joint.name), lines))
     for pin in linkage.pins:
         lines = _written(balance, lambda pin=pin: _pinned(pin.name, 0, balance))  # type: ignore[misc]
-        solved.append(Step(f"Ground at {marked(pin.name)}", lines))
+        solved.append(Step(said("Ground at {pin}", pin=marked(pin.name)), lines))
     bodies = tuple(_free(member, balance, about) for member in balance.members.names if member)
     equations = [(body, _equations(body, balance)) for body in bodies]
-    steps = [Step("", (Words(_SENSES),))]
-    steps += [Step("What is known", known)] if known else []
-    steps += [Step(f"{_words(body)}, free", _freed(body, found)) for body, found in equations]
+    steps = [Step("", (Words(said(_SENSES)),))]
+    steps += [Step(said("What is known"), known)] if known else []
+    steps += [Step(said("{body}, free", body=_words(body)), _freed(body, found)) for body, found in equations]
     steps += _system([one for _, found in equations for one in found], balance)
     steps += [step for step in solved if step.items]
     return Forces(tuple(steps), tuple(balance.results), bodies)
@@ -532,7 +543,10 @@ def _written(balance: Balance, write: Callable[[], object]) -> tuple[Item, ...]:
 
 
 def _words(body: FreeBody) -> str:
-    return f"Link {body.name}" if len(body.name) < 3 else body.name[:1].upper() + body.name[1:]
+    if len(body.name) < 3:
+        return said("Link {name}", name=body.name)
+    name = name_said(body.name)
+    return name[:1].upper() + name[1:]
 
 
 def _free(member: Member, balance: Balance, about: str | None) -> FreeBody:
@@ -558,11 +572,14 @@ def _equations(body: FreeBody, balance: Balance) -> tuple[Formula, Formula, Form
 def _freed(body: FreeBody, sums: tuple[Formula, Formula, Formula]) -> tuple[Item, ...]:
     acting = dict.fromkeys([*(one.name for one in body.forces), *(name for name, _ in body.couples)])
     if not acting:
-        return (Words("Nothing acts on it."),)
-    listed = Unknown(tuple(Formula("leaf", symbol=symbol_of(name)) for name in acting), "On it act")
-    turning = "and their moments" if sums[-1].symbolic else "none of which has a moment"
-    said = f"Its forces across and up, {turning} about {marked(body.about)}:"
-    return (listed, Words(said), *(Equation(one, ZERO) for one in sums if one.symbolic))
+        return (Words(said("Nothing acts on it.")),)
+    listed = Unknown(tuple(Formula("leaf", symbol=symbol_of(name)) for name in acting), said("On it act"))
+    text = said(_SUMS if sums[-1].symbolic else _NO_MOMENT, about=marked(body.about))
+    return (listed, Words(text), *(Equation(one, ZERO) for one in sums if one.symbolic))
+
+
+_SUMS = to_say("Its forces across and up, and their moments about {about}:")
+_NO_MOMENT = to_say("Its forces across and up, none of which has a moment about {about}:")
 
 
 def symbol_of(name: str) -> Symbol:
@@ -579,9 +596,9 @@ def _system(sums: list[Formula], balance: Balance) -> list[Step]:
     count = len(unknown)
     if len(rows) != count:
         return []
-    said = f"These are {count} linear equations in {count} unknowns."
+    text = said("These are {count} linear equations in {count} unknowns.", count=count)
     if count > _MOST_UNKNOWN:
-        return [Step("All equations", (Words(said),))]
+        return [Step(said("All equations"), (Words(text),))]
     digits = 5
 
     def leaf(value: float) -> Formula:
@@ -592,7 +609,10 @@ def _system(sums: list[Formula], balance: Balance) -> list[Step]:
         for coefficients, constant in rows
     )
     return [
-        Step("All equations", (Words(f"{said} As A x = b they are:"), LargeSystem(tuple(unknown), matrix)))
+        Step(
+            said("All equations"),
+            (Words(sentences(text, said("As A x = b they are:"))), LargeSystem(tuple(unknown), matrix)),
+        )
     ]
 
 

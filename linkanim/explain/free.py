@@ -14,6 +14,7 @@ from linkanim.explain.solution import Solution
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import holding
 from linkanim.mechanics.quantities import called
+from linkanim.words import said
 
 _SHORTEST = 0.05 / 0.32
 """A force of less than this share of the greatest on a body is drawn so long, so that it is seen."""
@@ -37,7 +38,7 @@ def titled(found: Solution, body: FreeBody) -> str:
     """Return what a body is called."""
     scene = found.request.scene
     own = next((one for one in scene.linkage.bodies if one.name == body.name), None)
-    return called(own, scene.info.link_names) if own else f"Bar {body.name}"
+    return called(own, scene.info.link_names) if own else said("Bar {name}", name=body.name)
 
 
 def joints_of(found: Solution, body: FreeBody) -> dict[str, complex]:

@@ -50,6 +50,7 @@ from linkanim.explain.steps import (
     UnknownRate,
     ValueLine,
     Work,
+    joint_title,
     marked,
     route_of_bar,
     slide_sides,
@@ -57,8 +58,9 @@ from linkanim.explain.steps import (
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.groups import GroupPoint, GroupSlider
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
-from linkanim.units import rounded as told
+from linkanim.units import rounded as in_digits
 from linkanim.units import significant
+from linkanim.words import name_said, row_said, said, to_say
 
 # How each kind of joint is worked out by hand, and the one list of them.
 
@@ -96,7 +98,7 @@ def place_crank(crank: Crank, work: Work) -> None:
             Symbol("δ", crank.name),
             crank.gear.offset,
             ANGLE,
-            "angle of its crank when the driving gear is at 0°",
+            said("angle of its crank when the driving gear is at 0°"),
         )
         driven = _ratio(crank.gear) * work.angle_of(mate.pivot, mate.name) + offset
         work.angles[ends] = work.let(work.angle_symbol(*ends), driven, ANGLE)
@@ -159,8 +161,18 @@ def body_point(
     """Return the vector from a body's first joint to a point of the body."""
     ahead = along(work.angle_of(*on))
     first, second = map(marked, on)
-    p = work.sided(names[0], at[0], f"along {first}–{second}", f"from {first}, away from {second}")
-    q = work.sided(names[1], at[1], *(f"to the {side} of {first}–{second}" for side in ("left", "right")))
+    p = work.sided(
+        names[0],
+        at[0],
+        said("along {first}–{second}", first=first, second=second),
+        said("from {first}, away from {second}", first=first, second=second),
+    )
+    q = work.sided(
+        names[1],
+        at[1],
+        said("to the left of {first}–{second}", first=first, second=second),
+        said("to the right of {first}–{second}", first=first, second=second),
+    )
     return ahead.times(p) + ahead.left().times(q)
 
 
@@ -188,16 +200,22 @@ def place_bars(joint: RRR, work: Work) -> None:
     (p, q), name = joint.ends, joint.name
     span = work.points[q] - work.points[p]
     work.say(
-        f"The distance d from {marked(p)} to {marked(q)} and its direction δ; then the cosine rule in the "
-        "triangle of the two bars:"
+        said(
+            "The distance d from {p} to {q} and its direction δ; then the cosine rule in the "
+            "triangle of the two bars:",
+            p=marked(p),
+            q=marked(q),
+        )
     )
     d = work.let(Symbol("d", name), sqrt(square(span.x) + square(span.y)), LENGTH)
     symbol = work.angle_symbol(p, name)
     if d.value == 0:
-        work.say("Both ends coincide, so every direction closes the loop; the motion continues in this one:")
+        work.say(
+            said("Both ends coincide, so every direction closes the loop; the motion continues in this one:")
+        )
         at = complex(*work.pose.position[name]) - complex(*work.pose.position[p])
         work.angles[p, name] = work.known(
-            symbol, phase(at), ANGLE, f"as the motion passes {marked(p)} = {marked(q)}"
+            symbol, phase(at), ANGLE, said("as the motion passes {p} = {q}", p=marked(p), q=marked(q))
         )
     else:
         work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, span, d), ANGLE)
@@ -219,7 +237,7 @@ def _corner(cosine: Formula, work: Work, name: str) -> Formula:
     """Add the triangle's angle; at a limit, where rounding takes its cosine past 1, it is 0 or 180°."""
     if abs(cosine.value) <= 1:
         return work.let(Symbol("γ", name), arccos(cosine), ANGLE)
-    work.say("In the digits shown the two bars lie in one line: rounding takes the cosine of γ past 1.")
+    work.say(said("In the digits shown the two bars lie in one line: rounding takes the cosine of γ past 1."))
     return number("0" if cosine.value > 0 else "180", in_degrees=True)
 
 
@@ -231,16 +249,18 @@ def _left(joint: RRR, work: Work) -> bool:
 
 def _why_left(joint: RRR, left: bool) -> str:
     p, q = joint.ends
-    side, sign = ("left", "added") if left else ("right", "subtracted")
-    found = (
-        f"In this position {marked(joint.name)} lies to the {side} of the line from {marked(p)} to "
-        f"{marked(q)}, so γ is {sign}"
-    )
-    stated = joint.side_of is not None or left == (joint.side > 0)
-    return f"{found}." if stated else f"{found}: {_PASSED}."
+    found = said(_WHY_LEFT[left], joint=marked(joint.name), p=marked(p), q=marked(q))
+    usual = joint.side_of is not None or left == (joint.side > 0)
+    return said("{found}.", found=found) if usual else said(_PASSED, found=found)
 
 
-_PASSED = "the motion has come to this closure through a limit or a change point"
+_WHY_LEFT = {
+    True: to_say("In this position {joint} lies to the left of the line from {p} to {q}, so γ is added"),
+    False: to_say(
+        "In this position {joint} lies to the right of the line from {p} to {q}, so γ is subtracted"
+    ),
+}
+_PASSED = to_say("{found}: the motion has come to this closure through a limit or a change point.")
 
 
 def half_angle(joint: RRR, work: Work) -> None:
@@ -254,8 +274,13 @@ def half_angle(joint: RRR, work: Work) -> None:
     span, angle = work.points[q] - work.points[p], work.angles[q, name]
     before = len(work.items)
     work.say(
-        f"Eliminating the angle of {marked(p)}–{marked(name)} from the loop leaves A cos θ + B sin θ = C for "
-        f"the angle θ of {marked(q)}–{marked(name)}, a quadratic equation in tan(θ/2):"
+        said(
+            "Eliminating the angle of {p}–{name} from the loop leaves A cos θ + B sin θ = C for "
+            "the angle θ of {q}–{name}, a quadratic equation in tan(θ/2):",
+            p=marked(p),
+            name=marked(name),
+            q=marked(q),
+        )
     )
     cosine = work.let(Symbol("A", name), TWO * b * span.x, SQUARE)
     sine = work.let(Symbol("B", name), TWO * b * span.y, SQUARE)
@@ -270,13 +295,21 @@ def half_angle(joint: RRR, work: Work) -> None:
         return
     found = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
     miss, places = abs(math.remainder(found.value - angle.value, 360)), work.scale.decimals(ANGLE)
-    sign = "plus" if _left(joint, work) else "minus"
-    turns = "" if abs(found.value - angle.value) < _HALF_TURN else ", apart from a full turn"
-    apart = "" if miss < 3 * 10.0**-places else f", to within {told(miss, 1)}°"
+    turns = "" if abs(found.value - angle.value) < _HALF_TURN else said(", apart from a full turn")
+    apart = "" if miss < 3 * 10.0**-places else said(", to within {miss}°", miss=in_digits(miss, 1))
     work.say(
-        f"The root is taken with a {sign} on this closure. The result is the angle of "
-        f"{marked(q)}–{marked(name)} "
-        f"found above{turns}{apart}."
+        said("The root is taken with a plus on this closure.")
+        if _left(joint, work)
+        else said("The root is taken with a minus on this closure.")
+    )
+    work.say(
+        said(
+            "The result is the angle of {q}–{name} found above{turns}{apart}.",
+            q=marked(q),
+            name=marked(name),
+            turns=turns,
+            apart=apart,
+        )
     )
 
 
@@ -323,14 +356,21 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
     name, end = joint.name, joint.end
     guide = work.guide(joint.line, name)
     work.say(
-        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (p) and to the left of the "
-        "guide (n); then the slider's travel s:"
+        said(
+            "How far {end} lies along the guide from {through} (p) and to the left of the guide "
+            "(n); then the slider's travel s:",
+            end=marked(end),
+            through=marked(guide.through),
+        )
     )
     forward, aside = beside_guide(work, guide, end, name)
     margin = square(work.length(end, name, joint.length)) - square(aside)
     if margin.value < 0:
         work.say(
-            "In the digits shown the bar is perpendicular to the guide, and the value under the root is 0."
+            said(
+                "In the digits shown the bar is perpendicular to the guide, and the value under the "
+                "root is 0."
+            )
         )
     root = sqrt(margin) if margin.value >= 0 else ZERO
     ahead = _slider_ahead(joint, work)
@@ -349,12 +389,14 @@ def _slider_ahead(joint: RRP, work: Work) -> bool:
 
 
 def _why_ahead(joint: RRP, ahead: bool) -> str:
-    where, sign = ("ahead of", "added") if ahead else ("behind", "subtracted")
-    why = "" if ahead == (joint.side > 0) else f": {_PASSED}"
-    return (
-        f"In this position {marked(joint.name)} is {where} {marked(joint.end)} along the guide, so the root "
-        f"is {sign}{why}."
-    )
+    found = said(_WHY_AHEAD[ahead], joint=marked(joint.name), end=marked(joint.end))
+    return said("{found}.", found=found) if ahead == (joint.side > 0) else said(_PASSED, found=found)
+
+
+_WHY_AHEAD = {
+    True: to_say("In this position {joint} is ahead of {end} along the guide, so the root is added"),
+    False: to_say("In this position {joint} is behind {end} along the guide, so the root is subtracted"),
+}
 
 
 def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
@@ -384,8 +426,11 @@ def place_slot(joint: RPR, work: Work) -> None:
     arm = work.points[pin] - work.points[pivot]
     offset = _slot_offset(joint, work)
     work.say(
-        f"The slotted bar turns about {marked(pivot)}; the pin {marked(pin)} is in its slot, s along it from "
-        f"{marked(pivot)}:"
+        said(
+            "The slotted bar turns about {pivot}; the pin {pin} is in its slot, s along it from {pivot}:",
+            pivot=marked(pivot),
+            pin=marked(pin),
+        )
     )
     root = sqrt(square(arm.x) + square(arm.y) - square(offset))
     slide = work.let(work.names.slide(name), root if _pin_ahead(joint, work) else -root, LENGTH)
@@ -396,7 +441,7 @@ def place_slot(joint: RPR, work: Work) -> None:
 
 
 def _slot_offset(joint: RPR, work: Work) -> Formula:
-    sides = (f"the slot's offset to the {side}" for side in ("left", "right"))
+    sides = said("the slot's offset to the left"), said("the slot's offset to the right")
     return work.sided(Symbol("e", joint.name), joint.offset, *sides)
 
 
@@ -432,8 +477,12 @@ def place_yoke(joint: RPP, work: Work) -> None:
     name = joint.name
     guide, slot = work.guide(joint.line, name), _slot(joint, work)
     work.say(
-        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (p) and to the left "
-        "of the guide (n); then the travel s at which the slot crosses the guide:"
+        said(
+            "How far {pin} lies along the guide from {through} (p) and to the left of the guide "
+            "(n); then the travel s at which the slot crosses the guide:",
+            pin=marked(joint.pin),
+            through=marked(guide.through),
+        )
     )
     forward, aside = beside_guide(work, guide, joint.pin, name)
     work.slides[name] = work.let(work.names.slide(name), forward - aside * (cos(slot) / sin(slot)), LENGTH)
@@ -443,7 +492,9 @@ def place_yoke(joint: RPP, work: Work) -> None:
 
 def _slot(joint: RPP, work: Work) -> Formula:
     """Return the slot's direction from the guide's."""
-    return work.stated(Symbol("σ", joint.name), joint.slot, ANGLE, "direction of its slot from its guide")
+    return work.stated(
+        Symbol("σ", joint.name), joint.slot, ANGLE, said("direction of its slot from its guide")
+    )
 
 
 def _along_slot(joint: RPP, work: Work, guide: GuideLine) -> Components:
@@ -463,7 +514,10 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, *unknowns)
     if rates.slopes is None and order == 1:
         work.say(
-            f"f belongs to the travel along the guide, g to the travel of {marked(joint.pin)} along the slot:"
+            said(
+                "f belongs to the travel along the guide, g to the travel of {pin} along the slot:",
+                pin=marked(joint.pin),
+            )
         )
     rates.solve(name, unknowns, right, order)
     carried = rates.guided(guide, name, order, bar)
@@ -480,9 +534,8 @@ def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
 
 
 class Reach(NamedTuple):
-    """The bounds within which a dyad closes: of `what`, as `of` joints' places x + yi (n,), low and high."""
+    """The bounds within which a dyad closes: as `of` joints' places x + yi (n,), low and high."""
 
-    what: str
     of: Callable[[Mapping[str, Places]], Lengths]
     low: float
     high: float
@@ -494,12 +547,17 @@ def reach_of_bars(joint: RRR, work: Work) -> Reach:
     bars = (work.length(end, joint.name, length) for end, length in joint.bars)
     short, long = sorted(bars, key=lambda bar: bar.value)
     work.say(
-        f"The bars that meet at {marked(joint.name)} can be assembled as long as the distance from "
-        f"{marked(p)} to {marked(q)} lies between the difference and the sum of their lengths:"
+        said(
+            "The bars that meet at {joint} can be assembled as long as the distance from {p} to "
+            "{q} lies between the difference and the sum of their lengths:",
+            joint=marked(joint.name),
+            p=marked(p),
+            q=marked(q),
+        )
     )
     low = work.let(Symbol("d", "min"), long - short if long.value > short.value else ZERO, LENGTH)
     high = work.let(Symbol("d", "max"), long + short, LENGTH)
-    return Reach("The distance", lambda at: np.abs(at[p] - at[q]), low.value, high.value)
+    return Reach(lambda at: np.abs(at[p] - at[q]), low.value, high.value)
 
 
 def reach_of_slider(joint: RRP, work: Work) -> Reach:
@@ -515,11 +573,16 @@ def reach_of_slider(joint: RRP, work: Work) -> Reach:
 
     length = work.length(joint.end, joint.name, joint.length)
     work.say(
-        f"The bar from {marked(joint.end)} reaches the guide of {marked(joint.name)} as long as "
-        f"{marked(joint.end)} is no farther from the guide than the bar's length, {length.shown} "
-        f"{work.scale.unit}."
+        said(
+            "The bar from {end} reaches the guide of {joint} as long as {end} is no farther from "
+            "the guide than the bar's length, {length} {unit}.",
+            end=marked(joint.end),
+            joint=marked(joint.name),
+            length=length.shown,
+            unit=work.scale.unit,
+        )
     )
-    return Reach("That distance", aside, -math.inf, joint.length)
+    return Reach(aside, -math.inf, joint.length)
 
 
 def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
@@ -528,18 +591,28 @@ def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
         return None
     offset = abs(joint.offset)
     work.say(
-        f"The slotted bar can hold the pin {marked(joint.through)} as long as that is no nearer to "
-        f"{marked(joint.pivot)} than the slot's offset, {significant(offset, 6)} {work.scale.unit}."
+        said(
+            "The slotted bar can hold the pin {through} as long as that is no nearer to {pivot} "
+            "than the slot's offset, {offset} {unit}.",
+            through=marked(joint.through),
+            pivot=marked(joint.pivot),
+            offset=significant(offset, 6),
+            unit=work.scale.unit,
+        )
     )
-    return Reach("That distance", lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
+    return Reach(lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
 
 
 def place_group(point: GroupPoint, work: Work) -> None:
     """Add where a group's joint lies, which no dyad gives: as it is solved."""
-    links = [member.name for member in point.group.free]
+    links = [name_said(member.name) for member in point.group.free]
     work.say_once(
-        f"The links {', '.join(links[:-1])} and {links[-1]} can only be solved together: no dyad gives one of"
-        " their joints without the others. What follows of them is linkanim's own solution, not derived here."
+        said(
+            "The links {links} can only be solved together: no dyad gives one of "
+            "their joints without the others. What follows of them is linkanim's own solution, "
+            "not derived here.",
+            links=row_said(links),
+        )
     )
     x, y = (
         work.solved(Symbol(letter, point.name), float(value), LENGTH)
@@ -637,7 +710,7 @@ def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
     }
     dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
     ways = _WaysFromGround(work)
-    loops = tuple(_loop(joint, ways, found.get(f"Joint {marked(joint.name)}", set())) for joint in dyads)
+    loops = tuple(_loop(joint, ways, found.get(joint_title(joint.name), set())) for joint in dyads)
     lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
     length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
     return loops if length is None else (_cylinder(length, work), *loops)
@@ -666,7 +739,9 @@ def _cylinder(length: Formula, work: Work) -> VectorLoop:
         LoopArrow(name, ends[begin], ends[end])
         for name, begin, end in zip(names, (0, 1, 0), (1, 2, 2), strict=True)
     )
-    return VectorLoop(Step("Loop of the cylinder", (*equations, Unknown((turned, tilt)))), arrows)
+    return VectorLoop(
+        Step(said("Loop of the cylinder"), (*equations, Unknown((turned, tilt), said("Unknown")))), arrows
+    )
 
 
 def _loop(joint: Joint, ways: _WaysFromGround, found: set[Symbol | None]) -> VectorLoop:
@@ -686,7 +761,12 @@ def _loop(joint: Joint, ways: _WaysFromGround, found: set[Symbol | None]) -> Vec
     arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
     known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
     unknown = tuple(leaf for symbol, leaf in known.items() if symbol in found)
-    return VectorLoop(Step(f"Loop of {marked(joint.name)}", (*equations, Unknown(unknown))), arrows)
+    return VectorLoop(
+        Step(
+            said("Loop of {joint}", joint=marked(joint.name)), (*equations, Unknown(unknown, said("Unknown")))
+        ),
+        arrows,
+    )
 
 
 def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:

@@ -10,30 +10,41 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import degrees
+from typing import Literal
 
 from linkanim.explain.formula import Formula, Symbol
 from linkanim.explain.solution import INPUT_TITLE, Solution
 from linkanim.explain.steps import (
     MARKED,
+    ORDERS,
     Chapter,
     Equation,
     Given,
     Item,
+    Order,
     Step,
     System,
     Unknown,
     ValueLine,
     Words,
+    joint_title,
     marked,
     names_of,
 )
+from linkanim.explain.whole_motion import is_searched
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import RPP, RPR, Crank, Joint
 from linkanim.mechanics.quantities import link_labels, phrase
 from linkanim.picture.figure import figure
+from linkanim.words import row_said, said, sentences, to_say
 
 _FEWEST, _MOST_DYADS = 5, 2
-_DIRECTIONS = {0: "to the right", 90: "upwards", 180: "to the left", 270: "downwards"}
+_DIRECTIONS = {
+    0: to_say("to the right"),
+    90: to_say("upwards"),
+    180: to_say("to the left"),
+    270: to_say("downwards"),
+}
 
 
 class ExamAnswer(NamedTuple):
@@ -117,28 +128,29 @@ class _Exam:
         """The steps, by identity, that the way of an earlier question has."""
 
     def questions(self) -> Iterator[ExamQuestion]:
-        asked = [*self._all()]
-        if len(asked) < _FEWEST and (slopes := self._coefficients()):
-            before = (n for n, one in enumerate(asked) if "velocit" in one.text)
-            asked.insert(next(before, len(asked)), slopes)
-        yield from asked
+        points = [self._point] if self._point else []
+        geared = [] if self.loops else [*self._cranks()]
+        if not self.loops and not geared:
+            points = list(dict.fromkeys((self.linkage.drive.joint, *points)))
+        asked = [*self._closed(), *geared, *map(self._place, points)]
+        others = [*self._further(points)]
+        if len(asked) + len(others) < _FEWEST and (slopes := self._coefficients()):
+            asked.append(slopes)
+        yield from (*asked, *others)
 
-    def _all(self) -> Iterator[ExamQuestion]:
+    def _closed(self) -> Iterator[ExamQuestion]:
+        """Yield the questions on the loops, and on where they close."""
         if self.loops:
             yield self._loop_question()
         for loop, name in zip(self.loops, self.dyads, strict=True):
             yield self._position(loop, name)
-        point = self._point
-        points = [point] if point else []
-        if not self.loops:
-            geared = [*self._cranks()]
-            yield from geared
-            points = points if geared else list(dict.fromkeys((self.linkage.drive.joint, *points)))
-        yield from map(self._place, points)
+
+    def _further(self, points: Sequence[str]) -> Iterator[ExamQuestion]:
+        """Yield the questions on rates, on the whole motion, on forces and on how the linkage was made."""
         if not self.found.singular:
-            for order, word in ((1, "velocity"), (2, "acceleration")):
-                yield from self._rates(order, word)
-                yield from (self._moving(one, order, word) for one in points)
+            for order in ORDERS:
+                yield from self._rates(order)
+                yield from (self._moving(one, order) for one in points)
         if len(self.loops) < _MOST_DYADS:
             yield from self._whole()
         yield from self._forces()
@@ -147,28 +159,25 @@ class _Exam:
     # The parts of the solution that lead to an answer.
 
     def _chapter(self, title: str) -> Chapter:
-        return next((one for one in self.found.chapters if one.title == title), Chapter(title, ()))
+        """Return the chapter with an English title; one without steps where there is none."""
+        return next((one for one in self.found.chapters if one.title == said(title)), Chapter(title, ()))
 
     def _index(self, joint: str) -> int:
         return [one.name for one in self.linkage.joints].index(joint)
 
-    def _steps(self, chapter: str, upto: str, ending: str = "") -> tuple[Step, ...]:
-        """Return the steps of a chapter that no way has yet, up to a joint, whose titles end so."""
-        last, found = self._index(upto), []
-        for step in self._chapter(chapter).steps:
-            name = MARKED.findall(step.title)
-            wanted = self._index(name[0]) <= last if name else step.title == ""
-            if name and not step.title.endswith(f"\x03{ending}"):
-                wanted = False
-            if any("residual" in item.text for item in step.items if isinstance(item, Words)):
-                wanted = False
+    def _steps(self, chapter: str, upto: str, coefficients: Literal[0, 1, 2] = 0) -> tuple[Step, ...]:
+        """Return the steps of a chapter that no way has yet, up to a joint, and what opens the chapter."""
+        before = [joint.name for joint in self.linkage.joints[: self._index(upto) + 1]]
+        titles, found = [joint_title(name, coefficients) for name in before], []
+        for n, step in enumerate(self._chapter(chapter).steps):
+            wanted = step.title in titles or (n == 0 and not step.title)
             if wanted and id(step) not in self.shown:
                 self.shown.add(id(step))
                 found.append(step)
         return tuple(found)
 
     def _of_joint(self, chapter: str, joint: str) -> list[ValueLine]:
-        title = f"Joint {marked(joint)}"
+        title = joint_title(joint)
         steps = [step for step in self._chapter(chapter).steps if step.title == title]
         return [item for step in steps for item in step.items if isinstance(item, ValueLine)]
 
@@ -214,9 +223,9 @@ class _Exam:
             joint = self._sliding(symbol)
             if symbol.letter == "t" or isinstance(joint, RPR):
                 pin = joint.through if isinstance(joint, RPR) else getattr(joint, "pin", "")
-                return f"the pin {marked(pin)} in its slot"
+                return said("the pin {pin} in its slot", pin=marked(pin))
             body = next((one for one in self.linkage.bodies if joint and one.slider == joint.name), None)
-            return phrase(body, self.scene.info.link_names) if body else "the slider"
+            return phrase(body, self.scene.info.link_names) if body else said("the slider")
         body = bodies.get(labels.get(symbol.sub, ""))
         return phrase(body, self.scene.info.link_names) if body else None
 
@@ -224,7 +233,9 @@ class _Exam:
         """Return in words the line whose angle has an index."""
         bars = ((start, joint.name) for joint in self.linkage.joints for start, _ in joint.bars)
         ends = next((ends for ends in bars if self.names.angle(*ends) == index), None)
-        return f"the line {marked(ends[0])}–{marked(ends[1])}" if ends else f"link {index}"
+        if ends is None:
+            return said("link {name}", name=index)
+        return said("the line {start}–{end}", start=marked(ends[0]), end=marked(ends[1]))
 
     def _sliding(self, symbol: Symbol) -> Joint | None:
         """Return the joint whose travel has a symbol."""
@@ -239,22 +250,27 @@ class _Exam:
             assert symbol is not None
             what = sliding if symbol.letter in "st" else turning
             found.setdefault(what, []).append(self._thing(symbol) or self._line(symbol.sub))
-        parts = []
-        for what, things in found.items():
-            several = " of ".join(map(_plural, what.split(" of "))) if len(things) > 1 else what
-            parts.append(f"the {several} of {_and(things)}")
-        return _and(parts)
+        parts = [
+            said(_MEASURES[what][len(things) > 1], things=row_said(things)) for what, things in found.items()
+        ]
+        return row_said(parts)
 
     # Questions.
 
     def _loop_question(self) -> ExamQuestion:
         several = len(self.loops) > 1
-        text = "Write down the vector loop of the linkage" if not several else "Write down two vector loops"
         return ExamQuestion(
-            f"{text}, resolve {'each' if several else 'it'} into x and y, and name the unknowns.",
+            said("Write down two vector loops, resolve each into x and y, and name the unknowns.")
+            if several
+            else said(
+                "Write down the vector loop of the linkage, resolve it into x and y, and name the unknowns."
+            ),
             (),
             2 * len(self.loops),
-            f"Two routes lead from the ground to {_and([marked(name) for name in self.dyads])}.",
+            said(
+                "Two routes lead from the ground to {joints}.",
+                joints=row_said([marked(name) for name in self.dyads]),
+            ),
             tuple(self.loops),
         )
 
@@ -266,34 +282,42 @@ class _Exam:
         answers = self._unknowns(loop)
         way = self._steps("Positions", name)
         hint = next((item.text for item in way[-1].items if isinstance(item, Words)), "") if way else ""
-        text = f"Find {self._things(answers, 'angle', 'travel')}.{self._counted(answers)}"
+        found = said("Find {things}.", things=self._things(answers, "angle", "travel"))
+        text = sentences(found, *self._counted(answers))
         return ExamQuestion(text, answers, 2 * len(answers), _sentence(hint), way)
 
-    def _counted(self, answers: Sequence[ExamAnswer]) -> str:
-        """Return from where the travels among the answers are counted."""
-        said = ""
+    def _counted(self, answers: Sequence[ExamAnswer]) -> Iterator[str]:
+        """Yield from where the travels among the answers are counted."""
         for one in answers:
             symbol = one.value.symbol
             if symbol is None or symbol.letter not in "st":
                 continue
             joint = self._sliding(symbol)
             if isinstance(joint, RPR):
-                said += f" The travel in the slot is counted from {marked(joint.pivot)}."
+                yield said("The travel in the slot is counted from {pivot}.", pivot=marked(joint.pivot))
             line = getattr(joint, "line", None)
             if line is None:
                 continue
             if isinstance(joint, RPP) and symbol.letter == "t":
                 towards = _direction(line.angle + joint.slot)
-                said += (
-                    f" The travel of the pin is counted along the slot from the guide, positive {towards}."
+                yield said(
+                    "The travel of the pin is counted along the slot from the guide, positive {towards}.",
+                    towards=towards,
                 )
                 continue
-            foot = f"the foot of {marked(line.through)} on it" if line.offset else marked(line.through)
+            foot = (
+                said("the foot of {through} on it", through=marked(line.through))
+                if line.offset
+                else marked(line.through)
+            )
             if line.on is not None:
-                said += f" The travel is counted along the guide from {foot}."
+                yield said("The travel is counted along the guide from {foot}.", foot=foot)
                 continue
-            said += f" The travel is counted along the guide from {foot}, positive {_direction(line.angle)}."
-        return said
+            yield said(
+                "The travel is counted along the guide from {foot}, positive {direction}.",
+                foot=foot,
+                direction=_direction(line.angle),
+            )
 
     def _cranks(self) -> Iterator[ExamQuestion]:
         """Yield the question on the angles of geared cranks, of a linkage without a loop."""
@@ -308,16 +332,26 @@ class _Exam:
             answers = tuple(ExamAnswer(line.value, line.unit) for line in lines[:_MOST_DYADS])
             way = self._steps("Positions", self._last)
             yield ExamQuestion(
-                f"Find {self._things(answers, 'angle', 'travel')}.", answers, 2 * len(answers), "", way
+                said("Find {things}.", things=self._things(answers, "angle", "travel")),
+                answers,
+                2 * len(answers),
+                "",
+                way,
             )
 
     def _place(self, joint: str) -> ExamQuestion:
         lines = [one for one in self._of_joint("Positions", joint) if _is_place(one, joint)]
         way = self._steps("Positions", joint)
-        return ExamQuestion(f"Find the coordinates of {marked(joint)}.", _answers(lines), 2, _ROTATE, way)
+        return ExamQuestion(
+            said("Find the coordinates of {joint}.", joint=marked(joint)),
+            _answers(lines),
+            2,
+            said(_ROTATE),
+            way,
+        )
 
-    def _rates(self, order: int, word: str) -> Iterator[ExamQuestion]:
-        chapter = "Velocities" if order == 1 else "Accelerations"
+    def _rates(self, order: Order) -> Iterator[ExamQuestion]:
+        chapter = _CHAPTERS[order]
         letters = "ω" if order == 1 else "α"
         joints = self.dyads or [joint.name for joint in self.linkage.joints]
         lines = [
@@ -329,24 +363,23 @@ class _Exam:
         if not lines:
             return
         answers = _answers(lines[: 2 * _MOST_DYADS])
-        kind = "first" if order == 1 else "second"
         way = (
-            *self._steps("Kinematic coefficients", self._last, f", {kind} coefficients"),
+            *self._steps("Kinematic coefficients", self._last, order),
             *self._steps(chapter, self._last),
         )
-        text = f"Find {self._things(answers, f'angular {word}', word)}."
+        text = said("Find {things}.", things=self._things(answers, *_RATES[order]))
         marks = (1 + order) * len(answers)
-        yield ExamQuestion(text, answers, marks, _DIFFERENTIATE[order - 1] * bool(self.dyads), way)
+        hint = said(_DIFFERENTIATE[order - 1]) if self.dyads else ""
+        yield ExamQuestion(text, answers, marks, hint, way)
 
-    def _moving(self, joint: str, order: int, word: str) -> ExamQuestion:
-        chapter, letter = ("Velocities", "v") if order == 1 else ("Accelerations", "a")
+    def _moving(self, joint: str, order: Order) -> ExamQuestion:
+        chapter, letter = _CHAPTERS[order], "va"[order - 1]
         lines = self._of_joint(chapter, joint)
-        kind = "first" if order == 1 else "second"
         way = (
-            *self._steps("Kinematic coefficients", joint, f", {kind} coefficients"),
+            *self._steps("Kinematic coefficients", joint, order),
             *self._steps(chapter, joint),
         )
-        sizes = [step for step in self._chapter(chapter).steps if step.title == "Sizes"]
+        sizes = [step for step in self._chapter(chapter).steps if step.title == said("Sizes")]
         size = [
             item
             for step in sizes
@@ -356,50 +389,59 @@ class _Exam:
         if size:
             way = (*way, Step("", tuple(size)))
         places = [one for one in lines if one.value.symbol and one.value.symbol.letter in "xy"]
-        text = f"Find the {word} of {marked(joint)}: its components and its magnitude."
-        return ExamQuestion(text, _answers([*places, *size]), 1 + order, _ROTATE_RATE[order - 1], way)
+        text = said(_MOVING[order], joint=marked(joint))
+        return ExamQuestion(text, _answers([*places, *size]), 1 + order, said(_ROTATE_RATE[order - 1]), way)
 
     def _coefficients(self) -> ExamQuestion | None:
         """Return the question on kinematic coefficients, for a linkage with little else to ask."""
+        firsts = [joint_title(joint.name, 1) for joint in self.linkage.joints]
         lines = [
             item
             for step in self._chapter("Kinematic coefficients").steps
-            if step.title.endswith(", first coefficients")
+            if step.title in firsts
             for item in step.items
             if isinstance(item, ValueLine) and item.value.symbol and item.value.symbol.letter in "hfg"
         ]
         answers = _answers([one for one in lines if one.value.symbol and not one.value.symbol.mark][:2])
         if not answers or self.found.singular:
             return None
-        kinds = "derivative of the angle", "derivative of the travel"
-        things = self._things(_as_places(answers), *kinds)
-        text = f"Find {things} with respect to the input (the first kinematic coefficients h and f)."
-        return ExamQuestion(text, answers, 2 * len(answers), _DIFFERENTIATE[0], ())
+        things = self._things(_as_places(answers), "derivative of the angle", "derivative of the travel")
+        text = said(
+            "Find {things} with respect to the input (the first kinematic coefficients h and f).",
+            things=things,
+        )
+        return ExamQuestion(text, answers, 2 * len(answers), said(_DIFFERENTIATE[0]), ())
 
     def _whole(self) -> Iterator[ExamQuestion]:
         """Yield the question on stroke or swing and time ratio, or on how far the input goes."""
         centres = self._chapter("Dead centres and time ratio")
-        words = " ".join(item.text for item in centres.items if isinstance(item, Words))
+        words = [item.text for item in centres.items if isinstance(item, Words)]
         lines = [item for item in centres.items if isinstance(item, ValueLine)]
         ends = [
             one for one in lines if one.value.symbol in (Symbol("H"), Symbol("ψ", "swing"), Symbol("T", "R"))
         ]
-        if len(ends) > 1 and "numerical search" not in words:
-            what = "stroke of the slider" if ends[0].value.symbol == Symbol("H") else "swing of the rocker"
+        if len(ends) > 1 and not any(map(is_searched, centres.items)):
+            text = (
+                said("Find the stroke of the slider and the time ratio, of the slow stroke to the quick one.")
+                if ends[0].value.symbol == Symbol("H")
+                else said(
+                    "Find the swing of the rocker and the time ratio, of the slow stroke to the quick one."
+                )
+            )
             yield ExamQuestion(
-                f"Find the {what} and the time ratio, of the slow stroke to the quick one.",
+                text,
                 _answers(ends),
                 4,
-                _sentence(re.split(r"(?<=[.:]) ", words)[0]),
+                _sentence(re.split(r"(?<=[.:]) |(?<=[。：])", words[0])[0]),
                 (*self._needed(lines), *centres.steps),
             )
         elif self.scene.info.grashof:
             step = self._chapter("Range of the input").steps[-1]
             yield ExamQuestion(
-                "Which class of four-bar is it by Grashof's criterion, and can its input turn fully?",
+                said("Which class of four-bar is it by Grashof's criterion, and can its input turn fully?"),
                 (),
                 2,
-                "Compare the sum of the shortest and the longest link with that of the other two.",
+                said("Compare the sum of the shortest and the longest link with that of the other two."),
                 (step,),
             )
 
@@ -430,8 +472,10 @@ class _Exam:
         lines = [item for step in way for item in step.items if isinstance(item, ValueLine)]
         effort = [one for one in lines if one.value.symbol in _EFFORT]
         answers = (*(one for pair in first.values() for one in pair), *_answers(effort))
-        text = "Draw each link free, with all that acts on it. Find the forces in joints and at the input."
-        yield ExamQuestion(text, answers, 2 + len(answers), _FREE, way)
+        text = said(
+            "Draw each link free, with all that acts on it. Find the forces in joints and at the input."
+        )
+        yield ExamQuestion(text, answers, 2 + len(answers), said(_FREE), way)
 
     def _made(self) -> Iterator[ExamQuestion]:
         """Yield the question on how the linkage was synthesised, if it was."""
@@ -439,20 +483,51 @@ class _Exam:
             lines = [item for item in made.items if isinstance(item, ValueLine)]
             lengths = [one for one in lines if one.value.symbol and one.value.symbol.letter in "re"]
             last = {one.value.symbol: one for one in lengths}
-            text = "Synthesis: show how the lengths of the linkage follow from what it was made for."
+            text = said("Synthesis: show how the lengths of the linkage follow from what it was made for.")
             yield ExamQuestion(text, _answers([*last.values()][:4]), 6, "", made.steps)
 
 
+_CHAPTERS = {1: "Velocities", 2: "Accelerations"}
+_RATES = {1: ("angular velocity", "velocity"), 2: ("angular acceleration", "acceleration")}
+_MEASURES = {
+    "angle": (to_say("the angle of {things}"), to_say("the angles of {things}")),
+    "travel": (to_say("the travel of {things}"), to_say("the travels of {things}")),
+    "angular velocity": (
+        to_say("the angular velocity of {things}"),
+        to_say("the angular velocities of {things}"),
+    ),
+    "velocity": (to_say("the velocity of {things}"), to_say("the velocities of {things}")),
+    "angular acceleration": (
+        to_say("the angular acceleration of {things}"),
+        to_say("the angular accelerations of {things}"),
+    ),
+    "acceleration": (to_say("the acceleration of {things}"), to_say("the accelerations of {things}")),
+    "derivative of the angle": (
+        to_say("the derivative of the angle of {things}"),
+        to_say("the derivatives of the angles of {things}"),
+    ),
+    "derivative of the travel": (
+        to_say("the derivative of the travel of {things}"),
+        to_say("the derivatives of the travels of {things}"),
+    ),
+}
+"""What is asked for, of one thing and of several."""
+_MOVING = {
+    1: to_say("Find the velocity of {joint}: its components and its magnitude."),
+    2: to_say("Find the acceleration of {joint}: its components and its magnitude."),
+}
 _EFFORT = (Symbol("M", "in"), Symbol("F", "in,s"))
-_FREE = "Begin at the end of the chain: moments on the two links that meet in a joint give its force."
-_ROTATE = "Go along the link by its angle, and at right angles to it."
+_FREE = to_say("Begin at the end of the chain: moments on the two links that meet in a joint give its force.")
+_ROTATE = to_say("Go along the link by its angle, and at right angles to it.")
 _DIFFERENTIATE = (
-    "Differentiate the loop with respect to time: two linear equations.",
-    "Differentiate the velocity equations once more; the matrix is the same.",
+    to_say("Differentiate the loop with respect to time: two linear equations."),
+    to_say("Differentiate the velocity equations once more; the matrix is the same."),
 )
 _ROTATE_RATE = (
-    "The velocity relative to another point of the link is ω times their distance, at right angles to it.",
-    "Besides the part with α there is one with ω², towards the other point.",
+    to_say(
+        "The velocity relative to another point of the link is ω times their distance, at right angles to it."
+    ),
+    to_say("Besides the part with α there is one with ω², towards the other point."),
 )
 
 
@@ -478,17 +553,10 @@ def _is_place(line: ValueLine, joint: str) -> bool:
 def _direction(angle: float) -> str:
     """Return a direction in words: upwards, or towards its angle."""
     turned = round(degrees(angle), 6) % 360
-    return _DIRECTIONS[int(turned)] if turned % 90 == 0 else f"towards {turned:g}°"
-
-
-def _plural(words: str) -> str:
-    return f"{words[:-1]}ies" if words.endswith("y") else f"{words}s"
-
-
-def _and(parts: Sequence[str]) -> str:
-    """Return parts in a row, with an "and" before the last."""
-    return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0] if parts else ""
+    if turned % 90 == 0:
+        return said(_DIRECTIONS[int(turned)])
+    return said("towards {angle}°", angle=f"{turned:g}")
 
 
 def _sentence(text: str) -> str:
-    return f"{text.rstrip(':.')}." if text else ""
+    return said("{found}.", found=text.rstrip(":.：。")) if text else ""

@@ -53,6 +53,7 @@ from linkanim.explain.steps import (
     Words,
     Work,
     decimals,
+    joint_title,
     marked,
     names_of,
     rounded,
@@ -68,11 +69,12 @@ from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.quantities import called, input_symbol, link_labels
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
-from linkanim.units import rounded as told
+from linkanim.units import rounded as in_digits
+from linkanim.words import said, sentences, to_say
 
 # Where the input is and how it moves: as it was asked for, or from the phase.
 
-_SECOND = "acceleration of the input"
+_SECOND = to_say("acceleration of the input")
 _PI = Formula("leaf", symbol=Symbol("π"), shown="3.14159265359")
 _ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
@@ -123,16 +125,16 @@ def place_input(request: PoseRequest, rates: Rates) -> None:
 def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     """Return the requested angle, or the angle by the start and the phase."""
     work = rates.work
-    rate = work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "velocity of the input")
+    rate = work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, said("velocity of the input"))
     second = ZERO
     if request.acceleration:
-        second = work.known(rates.symbol(work.driver, 2), request.acceleration, _TWICE, _SECOND)
+        second = work.known(rates.symbol(work.driver, 2), request.acceleration, _TWICE, said(_SECOND))
     rates.start(rate, second)
     if request.by == "angle":
-        return work.known(symbol, request.value, ANGLE, "position of the input")
-    phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
+        return work.known(symbol, request.value, ANGLE, said("position of the input"))
+    phase = work.known(Symbol("φ"), request.value, ANGLE, said("phase"))
     start = work.stated(
-        Symbol("θ", "0"), request.scene.linkage.drive.start, ANGLE, "position of the input at phase 0"
+        Symbol("θ", "0"), request.scene.linkage.drive.start, ANGLE, said("position of the input at phase 0")
     )
     return work.let(symbol, start + phase, ANGLE)
 
@@ -140,13 +142,13 @@ def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
 def _swinging(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     """Add the law of an input that runs there and back: mid - amp cos φ."""
     work = rates.work
-    phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
-    pace = work.known(Symbol("φ", mark="˙"), request.speed, _ONCE, "rate of the phase")
+    phase = work.known(Symbol("φ"), request.value, ANGLE, said("phase"))
+    pace = work.known(Symbol("φ", mark="˙"), request.speed, _ONCE, said("rate of the phase"))
     if isinstance(request.scene.linkage.drive.actuator, Cylinder | Travel):
         return _stroke(request.scene.mechanism, rates, (phase, pace), symbol)
     low, high = request.scene.info.input_range
-    middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, "middle of the swing")
-    amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, "half of the swing")
+    middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, said("middle of the swing"))
+    amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, said("half of the swing"))
     found = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
     reach = work.let(Symbol("a"), amplitude * _PI / number("180", in_degrees=True), RATIO)
     once, twice = _cosine_rates(reach, phase, pace)
@@ -165,8 +167,8 @@ def _stroke(mechanism: Mechanism, rates: Rates, phase: tuple[Formula, Formula], 
     work, triangle = rates.work, mechanism.triangle
     letter, index = ("ℓ", "") if triangle else (symbol.letter, symbol.sub)
     ends = mechanism.linkage.drive.actuator.stated_lengths
-    middle = work.stated(Symbol(letter, "m"), sum(ends) / 2, LENGTH, "middle of the stroke")
-    reach = work.sided(Symbol("a"), (ends[1] - ends[0]) / 2, *["half of the stroke"] * 2)
+    middle = work.stated(Symbol(letter, "m"), sum(ends) / 2, LENGTH, said("middle of the stroke"))
+    reach = work.sided(Symbol("a"), (ends[1] - ends[0]) / 2, *[said("half of the stroke")] * 2)
     slid = work.let(Symbol(letter, index), middle - reach * cos(phase[0]), LENGTH)
     formulas = _cosine_rates(reach, *phase)
     once = work.let(Symbol(letter, index, "˙"), formulas[0], Powers(1, 1))
@@ -190,10 +192,12 @@ def _cylinder(
         for name, side, end in zip("gc", triangle.sides, between, strict=True)
     )
     base = work.known(
-        Symbol("θ", "b"), triangle.base, ANGLE, "the crank's angle at which the three lie in one line"
+        Symbol("θ", "b"), triangle.base, ANGLE, said("the crank's angle at which the three lie in one line")
     )
     work.say(
-        "The ends of the cylinder and the crank's pivot form a triangle; the cosine rule gives the crank:"
+        said(
+            "The ends of the cylinder and the crank's pivot form a triangle; the cosine rule gives the crank:"
+        )
     )
     corner = work.let(Symbol("ψ"), arccos((square(g) + square(r) - square(length)) / (TWO * g * r)), ANGLE)
     found = work.let(symbol, base + corner if triangle.side > 0 else base - corner, ANGLE)
@@ -206,7 +210,7 @@ def _cylinder(
 
 # The loads of a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
 
-FORCES = "Forces"
+FORCES = to_say("Forces")
 """The title of the chapter on what each body carries."""
 _WORDS = ("com_position", "com_velocity", "com_acceleration")
 
@@ -240,7 +244,7 @@ def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     length = work.let(Symbol("L", name), sqrt(square(span.x) + square(span.y)), LENGTH)
     yield work.scale.outcome(f"{name}.length", length, LENGTH)
     if length.value == 0:
-        work.say("Its ends coincide here, so its rate does not follow from this.")
+        work.say(said("Its ends coincide here, so its rate does not follow from this."))
         return
     rate = rates.let(Symbol("L", name, "˙"), dot(span, moving) / length, Powers(1, 1))
     yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
@@ -257,7 +261,7 @@ def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) 
         return work.quoted(Symbol("c", item.name), f"{item.coefficient:.12g}", "N s/m") * rate * metre
     assert item.stiffness is not None
     assert item.free_length is not None
-    free = work.stated(Symbol("L", f"{item.name}0"), item.free_length, LENGTH, "free length")
+    free = work.stated(Symbol("L", f"{item.name}0"), item.free_length, LENGTH, said("free length"))
     return work.quoted(Symbol("k", item.name), f"{item.stiffness:.12g}", "N/m") * (length - free) * metre
 
 
@@ -266,7 +270,13 @@ def _metre(rates: Rates) -> Formula:
     work = rates.work
     unit, metre = work.scale.unit, work.linkage.metre
     if metre != 1:
-        work.say_once(f"Forces are in newtons, so lengths are taken in metres: 1 {unit} is {metre:.12g} m.")
+        work.say_once(
+            said(
+                "Forces are in newtons, so lengths are taken in metres: 1 {unit} is {metre} m.",
+                unit=unit,
+                metre=f"{metre:.12g}",
+            )
+        )
     return number(f"{rates.work.linkage.metre:.12g}")
 
 
@@ -279,22 +289,30 @@ def effort(rates: Rates, known: Mapping[str, Formula], motion: Any) -> Iterator[
     work, linkage = rates.work, rates.work.linkage
     if not rates.struts.keys() >= set(_forceful(rates)):
         work.say(
-            "The rate of a spring or damper does not follow here, and so neither does the load on the input."
+            said(
+                "The rate of a spring or damper does not follow here, and so neither does the load "
+                "on the input."
+            )
         )
         return
-    what = (
-        "springs, dampers and masses, less that of the loads"
+    work.say(
+        said(
+            "The input delivers the power of springs, dampers and masses, less that of the loads; divided "
+            "by the input's velocity it gives:"
+        )
         if linkage.loads
-        else "springs, dampers and masses"
+        else said(
+            "The input delivers the power of springs, dampers and masses; divided by the input's velocity "
+            "it gives:"
+        )
     )
-    work.say(f"The input delivers the power of {what}; divided by the input's velocity it gives:")
     loads = (-_load_power(load, rates, known, motion) for load in linkage.loads)
     powers = [*_strut_powers(rates), *_body_powers(rates, known), *loads]
     total = work.let_plain(Symbol("P"), sum(powers, ZERO), "W")
     name, unit = linkage.drive.actuator.effort
     pace = _pace(rates)
     if pace.value == 0:
-        work.say("The input is at rest here, so it does not follow from the balance of power.")
+        work.say(said("The input is at rest here, so it does not follow from the balance of power."))
         return
     delivered = work.let_plain(Symbol(name[0].upper(), "in"), total / pace, unit)
     yield Outcome(effort_token(linkage), delivered, last=True)
@@ -391,38 +409,45 @@ def _load_velocity(load: Load, rates: Rates, arm: Any) -> Components:
 _FEWEST, _MOST = 6, 14
 _AGREES = 5e-6
 """The share of itself by which a result may differ from the solver's."""
-INPUT_TITLE = "The input"
+INPUT_TITLE = to_say("The input")
 TOLD = 4
 """Significant digits of a result that is told."""
 _LONG = 100.0
 """The factor on the median bar beyond which a longest bar does not set the decimals of lengths."""
 _TINY = 1e-300
-_PRIMES = (
-    "Kinematic coefficients are derivatives with respect to the input: h of a link's angle, f of a travel, "
-    "x′ and y′ of a point; the second ones are h′, f′, x″ and y″."
+_PRIMES = to_say(
+    "Kinematic coefficients are derivatives with respect to the input: h of a link's "
+    "angle, f of a travel, x′ and y′ of a point; the second ones are h′, f′, x″ and y″."
 )
-_BY_INPUT = (
-    f"{_PRIMES} Differentiating a loop gives two linear equations, with a matrix a, its determinant D and "
-    "the right-hand sides b; Cramer's rule gives the two unknowns."
+_BY_INPUT = to_say(
+    "Differentiating a loop gives two linear equations, with a matrix a, its "
+    "determinant D and the right-hand sides b; Cramer's rule gives the two unknowns.",
 )
 _IN_TIME = (
-    "By the chain rule, a velocity is the first coefficient times the velocity of the input.",
+    to_say("By the chain rule, a velocity is the first coefficient times the velocity of the input."),
+    to_say(
+        "By the chain rule, an acceleration is the second coefficient times the square of the velocity of "
+        "the input."
+    ),
+)
+_ACCELERATED = to_say(
     "By the chain rule, an acceleration is the second coefficient times the square of the velocity of the "
-    "input{}.",
+    "input, plus the first coefficient times the acceleration of the input."
 )
-_ACCELERATED = ", plus the first coefficient times the acceleration of the input"
-_CHECK = "Check: inserted in the differentiated loops, these values leave a residual of at most {}."
-_CARRIED = (
-    "The numbers given are exact. Results have four significant digits{}; the lines before them carry as "
-    "many as that takes."
+_CARRIED = to_say(
+    "The numbers given are exact. Results have four significant digits; the lines before them carry as many "
+    "as that takes."
 )
-_BUT = ", or fewer where they are small beside others of their kind"
-_AS_INPUT = "The slider is the input itself, so this is given."
-_NO_LOOP = "There is no loop to close: every joint follows directly from the input."
-_TOGETHER = "The loops of links that can only be solved together are not written down here."
-_SINGULAR = (
-    "At a limit or a change point the two linear equations of a dyad are not independent, so no velocities "
-    "follow from them. Choose a position beside it."
+_FEWER = to_say(
+    "The numbers given are exact. Results have four significant digits, or fewer where they are small beside "
+    "others of their kind; the lines before them carry as many as that takes."
+)
+_AS_INPUT = to_say("The slider is the input itself, so this is given.")
+_NO_LOOP = to_say("There is no loop to close: every joint follows directly from the input.")
+_TOGETHER = to_say("The loops of links that can only be solved together are not written down here.")
+_SINGULAR = to_say(
+    "At a limit or a change point the two linear equations of a dyad are not "
+    "independent, so no velocities follow from them. Choose a position beside it."
 )
 
 
@@ -474,7 +499,7 @@ class Solution:
     @property
     def title(self) -> str:
         """The title of the scene."""
-        return self.request.scene.title
+        return said(self.request.scene.title)
 
     @property
     def where(self) -> tuple[Symbol | str, str]:
@@ -517,7 +542,7 @@ def _carried(found: Solution) -> Iterator[Step]:
     """Yield the sentence on the digits of a solution, where it has rates."""
     if not found.singular:
         fewer = any(_has_fewer(result.value, true) for result, true in _compared(found))
-        yield Step("", (Words(_CARRIED.format(_BUT if fewer else "")),))
+        yield Step("", (Words(said(_FEWER if fewer else _CARRIED)),))
 
 
 def _has_fewer(value: Formula, true: float) -> bool:
@@ -615,12 +640,12 @@ class _Draft:
             by_input = self._by_input()
             rest = [*by_input, *self._in_time(has_coefficients=bool(by_input)), *self._parts()]
         else:
-            rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
-        given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
+            rest = [Chapter(said("Velocities and accelerations"), (Step("", (Words(said(_SINGULAR)),)),))]
+        given = Chapter(said("Given"), (Step("", tuple(self.work.given.values())),))
         without = _NO_LOOP if group_of(self.linkage) is None else _TOGETHER
-        steps = tuple(loop.step for loop in loops) or (Step("", (Words(without),)),)
+        steps = tuple(loop.step for loop in loops) or (Step("", (Words(said(without)),)),)
         made = synthesis(self.request.scene, self.work.names)
-        chapters = (given, Chapter("Vector loops", steps), places, *halves, *rest, *made)
+        chapters = (given, Chapter(said("Vector loops"), steps), places, *halves, *rest, *made)
         known = self.request.scene.quantities
         # where two parts have one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
@@ -642,23 +667,23 @@ class _Draft:
     def _placed(self) -> Chapter:
         """Return the chapter of positions."""
         scale = self.work.scale
-        self._step(INPUT_TITLE, partial(place_input, self.request, self.rates))
+        self._step(said(INPUT_TITLE), partial(place_input, self.request, self.rates))
         for joint in self.linkage.joints:
-            self._step(f"Joint {marked(joint.name)}", partial(KINDS[type(joint)].place, joint, self.work))
+            self._step(joint_title(joint.name), partial(KINDS[type(joint)].place, joint, self.work))
             self.results += scale.outcomes(f"{joint.name}.position", self.work.points[joint.name], 0)
-        self._step("Angles of the links", self._angles)
+        self._step(said("Angles of the links"), self._angles)
         for body in self.linkage.bodies:
             if body.slider in self.work.slides:
                 travel = self.work.slides[body.slider]
                 self.results.append(scale.outcome(f"{body.name}.travel", travel, LENGTH))
-        return self._chapter("Positions")[0]
+        return self._chapter(said("Positions"))[0]
 
     def _half_angles(self) -> list[Chapter]:
         """Return the chapter on the half-angle form of two bars, which many books have."""
         for joint in self.linkage.joints:
             if isinstance(joint, RRR):
-                self._step(f"Joint {marked(joint.name)}", partial(half_angle, joint, self.work))
-        return self._chapter("The same by the half-angle form")
+                self._step(joint_title(joint.name), partial(half_angle, joint, self.work))
+        return self._chapter(said("The same by the half-angle form"))
 
     def _angles(self) -> None:
         for body in self._turning():
@@ -671,30 +696,37 @@ class _Draft:
     def _by_input(self) -> list[Chapter]:
         """Return the chapter of kinematic coefficients; none where nothing but a driven slider moves."""
         self.slopes.start(ONE)
-        self._step("", partial(self.work.say, _BY_INPUT if self.loops else _PRIMES))
+        derived = said(_BY_INPUT) if self.loops else ""
+        self._step("", partial(self.work.say, sentences(said(_PRIMES), derived)))
         begun = len(self.steps)
-        for order, word, token in zip(ORDERS, ("first", "second"), ("", "second_"), strict=True):
-            self._moved(self.slopes, order, f", {word} coefficients")
+        for order, token in zip(ORDERS, ("", "second_"), strict=True):
+            self._moved(self.slopes, order, order)
             self._tell_links(self.slopes, order, f"{token}coefficient", f"{token}coefficient")
         if len(self.steps) == begun:
             self.steps.clear()
-        return self._chapter("Kinematic coefficients")
+        return self._chapter(said("Kinematic coefficients"))
 
     def _in_time(self, *, has_coefficients: bool) -> Iterator[Chapter]:
         """Yield the chapters of velocities and accelerations, by the chain rule if there are coefficients."""
-        titles = {"velocity": "Velocities", "acceleration": "Accelerations"}
-        for order, (word, title), text in zip(ORDERS, titles.items(), _IN_TIME, strict=True):
-            text = text.format(_ACCELERATED * bool(self.request.acceleration or self.request.swings))
-            self._step("", partial(self.work.say, text if has_coefficients else _AS_INPUT))
+        titles = {"velocity": to_say("Velocities"), "acceleration": to_say("Accelerations")}
+        steady = not (self.request.acceleration or self.request.swings)
+        laws = (_IN_TIME[0], _IN_TIME[1] if steady else _ACCELERATED)
+        for order, (word, title), text in zip(ORDERS, titles.items(), laws, strict=True):
+            self._step("", partial(self.work.say, said(text if has_coefficients else _AS_INPUT)))
             self._moved(self.rates, order)
             for joint in self.linkage.joints:
                 moving = self.rates.of(joint.name, order)
                 self.results += self.rates.scale.outcomes(f"{joint.name}.{word}", moving, order)
             self._tell_links(self.rates, order, f"angular_{word}", f"travel_{word}")
-            self._step("Sizes", partial(self._sizes, order, word))
+            self._step(said("Sizes"), partial(self._sizes, order, word))
             if self.loops:
-                self._step("", partial(self.work.say, _CHECK.format(self._left_over(order))))
-            yield from self._chapter(title)
+                check = said(
+                    "Check: inserted in the differentiated loops, these values leave a residual of at most "
+                    "{most}.",
+                    most=self._left_over(order),
+                )
+                self._step("", partial(self.work.say, check))
+            yield from self._chapter(said(title))
 
     def _sizes(self, order: Order, word: str) -> None:
         """Add the sizes of the joints' velocities, or accelerations."""
@@ -708,12 +740,12 @@ class _Draft:
     def _left_over(self, order: Order) -> str:
         """Return words for the largest residual of the differentiated loops at the rates of an order."""
         found, self.rates.left_over = self.rates.left_over, 0.0
-        return f"{told(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
+        return f"{in_digits(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
 
-    def _moved(self, rates: Rates, order: Order, words: str = "") -> None:
-        """Add a step for each joint that moves."""
+    def _moved(self, rates: Rates, order: Order, coefficients: Literal[0, 1, 2] = 0) -> None:
+        """Add a step for each joint that moves; its title may say which coefficients it is on."""
         for joint in self.linkage.joints:
-            title = f"Joint {marked(joint.name)}{words}"
+            title = joint_title(joint.name, coefficients)
             self._step(title, partial(KINDS[type(joint)].move, joint, rates, order))
 
     def _tell_links(self, rates: Rates, order: Order, turning: str, sliding: str) -> None:
@@ -731,15 +763,14 @@ class _Draft:
                 self._found(
                     called(body, self.request.scene.info.link_names), centre_of_mass(body, self.rates)
                 )
-        yield from self._chapter("Centres of mass")
+        yield from self._chapter(said("Centres of mass"))
         for item in self.linkage.springs + self.linkage.dampers:
-            word = self.linkage.strut_word(item)
-            self._found(f"{word[:1].upper()}{word[1:]} {item.name}", strut(item, self.rates))
-        yield from self._chapter("Springs and dampers")
+            self._found(self.linkage.strut_title(item), strut(item, self.rates))
+        yield from self._chapter(said("Springs and dampers"))
         if self.linkage.forceful:
             known = {result.token: result.value for result in self.results}
             self._found("", effort(self.rates, known, self.request.motion()))
-            yield from self._chapter("Load on the input")
+            yield from self._chapter(said("Load on the input"))
             if self.request.forces:
                 yield from self._forces(known)
 
@@ -754,7 +785,7 @@ class _Draft:
         found = forces(balance, self.request.about)
         self.results += found.results
         self.bodies = found.bodies
-        yield Chapter(FORCES, found.steps)
+        yield Chapter(said(FORCES), found.steps)
 
     def _found(self, title: str, found: Iterable[Outcome]) -> None:
         """Add a step with its results."""

@@ -39,6 +39,7 @@ from linkanim.mechanics.quantities import link_labels
 from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import Figure
 from linkanim.units import signed
+from linkanim.words import said, to_say
 
 # The parts of a worked solution, in any kind of document: chapters, steps, lines.
 
@@ -57,6 +58,16 @@ def marked(joint: str) -> str:
 
 MARKED = re.compile("\x02([^\x02\x03]*)\x03")
 """A name that is marked."""
+_TITLES = (
+    to_say("Joint {joint}"),
+    to_say("Joint {joint}, first coefficients"),
+    to_say("Joint {joint}, second coefficients"),
+)
+
+
+def joint_title(joint: str, coefficients: Literal[0, 1, 2] = 0) -> str:
+    """Return the title of a joint's step; it may be on its first or second kinematic coefficients."""
+    return said(_TITLES[coefficients], joint=marked(joint))
 
 
 @frozen
@@ -115,7 +126,7 @@ class Unknown:
     """Symbols in a row, as a rule those that two equations are solved for, and what they are."""
 
     symbols: tuple[Formula, ...]
-    words: str = "Unknown"
+    words: str
 
 
 Item = Words | ValueLine | Given | Equation | System | LargeSystem | Unknown
@@ -369,7 +380,7 @@ class Work:
         places, unit = scale.decimals(measure), scale.unit_of(measure)
         text = rounded(value, min(places, self.places.get(symbol, places)))
         found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
-        self.items.append(Given(found, unit, "solved"))
+        self.items.append(Given(found, unit, said("solved")))
         return found
 
     def written(self, value: float, measure: Powers) -> str:
@@ -428,14 +439,14 @@ class Work:
     def guide(self, line: Travel, joint: str) -> GuideLine:
         """Return a joint's line of travel; its angle is worked out where a body carries it."""
         if line.on is None:
-            angle = self.stated(Symbol("φ", joint), line.angle, ANGLE, "direction of its guide")
+            angle = self.stated(Symbol("φ", joint), line.angle, ANGLE, said("direction of its guide"))
         else:
             angle = self.angle_of(*line.on)
             if line.angle:
-                words = "its guide from the line of its body"
+                words = said("its guide from the line of its body")
                 own = self.stated(Symbol("β", joint), line.angle, ANGLE, words)
                 angle = self.let(Symbol("φ", joint), angle + own, ANGLE)
-        sides = (f"its guide's offset to the {side}" for side in ("left", "right"))
+        sides = said("its guide's offset to the left"), said("its guide's offset to the right")
         offset = self.sided(Symbol("e", joint), line.offset, *sides)
         frame = self.frame(line.on) if line.on else 0
         return GuideLine(line.through, along(angle), offset, frame, angle)

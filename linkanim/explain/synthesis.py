@@ -29,6 +29,7 @@ from linkanim.explain.steps import (
 )
 from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRatioPurpose
 from linkanim.synthesis.constructions import dead_centres, guided_body, is_synthesised
+from linkanim.words import said, to_say
 
 _FEWEST, _MOST = 6, 12
 _AGREES = 5e-6
@@ -73,7 +74,7 @@ class _Chapter:
     @property
     def chapter(self) -> Chapter:
         """The chapter that was written."""
-        return Chapter("Synthesis", tuple(self.steps))
+        return Chapter(said("Synthesis"), tuple(self.steps))
 
     @property
     def agrees(self) -> bool:
@@ -121,24 +122,28 @@ class _Chapter:
     def _guided(self, purpose: PosesPurpose) -> None:
         count = len(purpose.poses)
         found = guided_body(self.scene, purpose)
-        self._step("Poses", partial(self._poses, purpose))
-        self._step("Displacements", self._against)
+        self._step(said("Poses"), partial(self._poses, purpose))
+        self._step(said("Displacements"), self._against)
         if count <= 3 and len(found.poses.poles) == count * (count - 1) // 2:
-            self._step("Poles", partial(self._poles, count))
+            self._step(said("Poles"), partial(self._poles, count))
         for joint, place, pivot, held in zip("AB", found.joints, ("O2", "O4"), found.held, strict=True):
             if held is None:
                 assert found.line is not None
                 self._step(
-                    f"Slider {marked(joint)}", partial(self._slides, joint, complex(place), found.line)
+                    said("Slider {joint}", joint=marked(joint)),
+                    partial(self._slides, joint, complex(place), found.line),
                 )
             else:
-                title = f"Joint {marked(joint)} for the pivot {marked(pivot)}"
+                title = said("Joint {joint} for the pivot {pivot}", joint=marked(joint), pivot=marked(pivot))
                 self._step(title, partial(self._turns, joint, complex(place), pivot))
 
     def _poses(self, purpose: PosesPurpose) -> None:
         """Add the poses as they are given: the origin's places, and the angles."""
         self.work.say(
-            f"The {len(purpose.poses)} poses of the body: x and y of its origin, and the angle φ of its axis."
+            said(
+                "The {count} poses of the body: x and y of its origin, and the angle φ of its axis.",
+                count=len(purpose.poses),
+            )
         )
         for n, (x, y, angle) in enumerate(purpose.poses, start=1):
             self.origins.append((self._given("x", n, x), self._given("y", n, y)))
@@ -146,7 +151,7 @@ class _Chapter:
 
     def _against(self) -> None:
         """Add each pose's rotation and displacement from the first."""
-        self.work.say("Each pose relative to the first: the rotation α and the displacement u, v.")
+        self.work.say(said("Each pose relative to the first: the rotation α and the displacement u, v."))
         (x, y), *others = self.origins
         for n, (angle, origin) in enumerate(zip(self.turned[1:], others, strict=True), start=2):
             index = str(n)
@@ -160,10 +165,11 @@ class _Chapter:
     def _poles(self, count: int) -> None:
         """Add the poles: each on the perpendicular bisector of the origin's places, which it sees α apart."""
         self.work.say(
-            "A rotation about the pole of two poses takes one to the other. The pole lies on the "
-            "perpendicular "
-            "bisector of the origin's two places, at half their distance times the cotangent of half the "
-            "rotation."
+            said(
+                "A rotation about the pole of two poses takes one to the other. The pole lies on the "
+                "perpendicular bisector of the origin's two places, at half their distance times the "
+                "cotangent of half the rotation."
+            )
         )
         for one, other in combinations(range(count), 2):
             index = f"{one + 1}{other + 1}"
@@ -176,12 +182,16 @@ class _Chapter:
     def _turns(self, joint: str, place: complex, pivot: str) -> None:
         """Add a joint that turns about a pivot: where it lies, and its distances from there."""
         at = self._joint(pivot)
-        px = self.work.known(Symbol("x", pivot), at.real, LENGTH, "chosen")
-        py = self.work.known(Symbol("y", pivot), at.imag, LENGTH, "chosen")
+        px = self.work.known(Symbol("x", pivot), at.real, LENGTH, said("chosen"))
+        py = self.work.known(Symbol("y", pivot), at.imag, LENGTH, said("chosen"))
         ends = ("O2", "A") if joint == "A" else ("O4", "B")
         own = self._found(joint, (px, py)) if len(self.turns) > 1 else self._chosen(joint, place)
         self.work.say(
-            f"In every pose {marked(joint)} is equally far from {marked(pivot)}, so a bar can join them."
+            said(
+                "In every pose {joint} is equally far from {pivot}, so a bar can join them.",
+                joint=marked(joint),
+                pivot=marked(pivot),
+            )
         )
         for n, (x, y) in enumerate(self._places(joint, own), start=1):
             squared = square(x - px) + square(y - py)
@@ -192,15 +202,19 @@ class _Chapter:
         """Return where a joint lies in the first pose, relative to the pose's origin, as it was chosen."""
         own = place - complex(self.origins[0][0].value, self.origins[0][1].value)
         return (
-            self.work.known(Symbol("ξ", joint), own.real, LENGTH, "chosen"),
-            self.work.known(Symbol("η", joint), own.imag, LENGTH, "chosen"),
+            self.work.known(Symbol("ξ", joint), own.real, LENGTH, said("chosen")),
+            self.work.known(Symbol("η", joint), own.imag, LENGTH, said("chosen")),
         )
 
     def _found(self, joint: str, pivot: tuple[Formula, Formula]) -> tuple[Formula, Formula]:
         """Return where a joint lies in the first pose, from its origin, by the equations of poses 2 and 3."""
         self.work.say(
-            f"If {marked(joint)} is as far from its pivot in pose n as in pose 1, its coordinates ξ, η from "
-            "the first origin satisfy a ξ + b η = c, where p and q are the pivot's coordinates."
+            said(
+                "If {joint} is as far from its pivot in pose n as in pose 1, its coordinates ξ, η "
+                "from the first origin satisfy a ξ + b η = c, where p and q are the pivot's "
+                "coordinates.",
+                joint=marked(joint),
+            )
         )
         p = self._length("p", joint, pivot[0] - self.origins[0][0])
         q = self._length("q", joint, pivot[1] - self.origins[0][1])
@@ -231,14 +245,17 @@ class _Chapter:
         """Add a joint that slides along a line: its offset from the crank's pivot in every pose."""
         own = self._chosen(joint, place)
         angle = math.atan2(line.imag, line.real)
-        direction = self.work.known(Symbol("φ", "g"), angle, ANGLE, "direction of the guide")
+        direction = self.work.known(Symbol("φ", "g"), angle, ANGLE, said("direction of the guide"))
         at = self._joint("O2")
         px = self.work.known(Symbol("x", "O2"), at.real, LENGTH)
         py = self.work.known(Symbol("y", "O2"), at.imag, LENGTH)
         offset = self.scene.linkage.joint(joint).line.offset  # type: ignore[attr-defined]
         self.work.say(
-            f"In every pose {marked(joint)} has the same offset from {marked('O2')}, so it can slide on a "
-            "line."
+            said(
+                "In every pose {joint} has the same offset from {pivot}, so it can slide on a line.",
+                joint=marked(joint),
+                pivot=marked("O2"),
+            )
         )
         for n, (x, y) in enumerate(self._places(joint, own), start=1):
             beside = (y - py) * cos(direction) - (x - px) * sin(direction)
@@ -252,10 +269,7 @@ class _Chapter:
         outputs: list[Formula] = []
 
         def points() -> None:
-            reads = "the slider's travel s" if sliding else "the output's angle ψ"
-            self.work.say(
-                f"{purpose.words} is met at these points: x is the crank's angle θ to scale, y is {reads}."
-            )
+            self.work.say(said(_MET_BY_TRAVEL if sliding else _MET_BY_ANGLE, function=purpose.words))
             for n, (x, y, theta, place) in enumerate(
                 zip(purpose.x, purpose.y, purpose.input, purpose.output, strict=True), start=1
             ):
@@ -265,8 +279,10 @@ class _Chapter:
                 letter, measure = ("s", LENGTH) if sliding else ("ψ", ANGLE)
                 outputs.append(self.work.known(Symbol(letter, str(n)), place, measure))
 
-        self._step("Precision points", points)
-        self._step("Freudenstein's equation", lambda: self._freudenstein(inputs, outputs, sliding=sliding))
+        self._step(said("Precision points"), points)
+        self._step(
+            said("Freudenstein's equation"), lambda: self._freudenstein(inputs, outputs, sliding=sliding)
+        )
 
     def _freudenstein(self, inputs: list[Formula], outputs: list[Formula], *, sliding: bool) -> None:
         """Add the equation at each point, the solution of three of them, and the check of the others."""
@@ -277,7 +293,9 @@ class _Chapter:
         else:
             self.work.items.append(Equation(k1 * cos(psi) - k2 * cos(theta) + k3, cos(theta - psi)))
         self.work.say(
-            "It is linear in the three K and holds at every point; p, q and w are its coefficients there."
+            said(
+                "It is linear in the three K and holds at every point; p, q and w are its coefficients there."
+            )
         )
         rows = []
         for n, (angle, place) in enumerate(zip(inputs, outputs, strict=True), start=1):
@@ -290,7 +308,9 @@ class _Chapter:
                 q = self._ratio("q", str(n), -cos(angle))
                 w = self._ratio("w", str(n), cos(angle - place))
             rows.append((p, q, w))
-        self.work.say("Subtracting the second and the last equation from the first leaves two unknowns.")
+        self.work.say(
+            said("Subtracting the second and the last equation from the first leaves two unknowns.")
+        )
         (p1, q1, w1), chosen = rows[0], (rows[len(rows) // 2], rows[-1])
         differences = []
         for n, (p, q, w) in enumerate(chosen, start=1):
@@ -307,7 +327,7 @@ class _Chapter:
         self._lengths(one, two, three, sliding=sliding)
         others = [n for n in range(len(rows)) if n not in (0, len(rows) // 2, len(rows) - 1)]
         if others:
-            self.work.say("The equations that were not used are satisfied too:")
+            self.work.say(said("The equations that were not used are satisfied too:"))
         for n in others:
             p, q, w = rows[n]
             check = self.work.let(
@@ -329,7 +349,7 @@ class _Chapter:
             ]
             return
         span = abs(self._joint("O4") - self._joint("O2"))
-        ground = self.work.known(Symbol("r", "1"), span, LENGTH, "the ground, chosen")
+        ground = self.work.known(Symbol("r", "1"), span, LENGTH, said("the ground, chosen"))
         crank = self._length("r", "2", ground / one)
         rocker = self._length("r", "4", ground / two)
         rest = square(ground) + square(crank) + square(rocker) - TWO * crank * rocker * three
@@ -343,17 +363,17 @@ class _Chapter:
 
     def _returning(self, purpose: TimeRatioPurpose) -> None:
         even = dead_centres(self.scene).angle <= 1e-6
-        self._step("The angle of the time ratio", partial(self._angle, purpose))
-        self._step("The chord", partial(self._chord, purpose))
-        self._step("Crank and coupler", partial(self._crank_and_coupler, even=even))
-        self._step("The crank's pivot", partial(self._pivot, self.named, even=even))
-        self._step("Transmission angle", partial(self._transmission, self.named))
+        self._step(said("The angle of the time ratio"), partial(self._angle, purpose))
+        self._step(said("The chord"), partial(self._chord, purpose))
+        self._step(said("Crank and coupler"), partial(self._crank_and_coupler, even=even))
+        self._step(said("The crank's pivot"), partial(self._pivot, self.named, even=even))
+        self._step(said("Transmission angle"), partial(self._transmission, self.named))
 
     def _angle(self, purpose: TimeRatioPurpose) -> None:
         """Add the angle between the dead centres' directions."""
-        quotient = self.work.known(Symbol("Q"), purpose.ratio, RATIO, "slow to quick")
+        quotient = self.work.known(Symbol("Q"), purpose.ratio, RATIO, said("slow to quick"))
         self.work.say(
-            "The crank turns by 180° + α during the slow stroke and by 180° − α during the quick one."
+            said("The crank turns by 180° + α during the slow stroke and by 180° − α during the quick one.")
         )
         straight, one = number("180", in_degrees=True), number("1")
         self.named["α"] = self.work.let(Symbol("α"), straight * (quotient - one) / (quotient + one), ANGLE)
@@ -362,11 +382,11 @@ class _Chapter:
         """Add the distance between the dead centres: the stroke, or the chord of the swing."""
         if purpose.swing is None:
             stroke = purpose.stroke or 0.0
-            self.named["H"] = self.work.known(Symbol("H"), stroke, LENGTH, "the stroke")
+            self.named["H"] = self.work.known(Symbol("H"), stroke, LENGTH, said("the stroke"))
             return
-        swing = self.work.known(Symbol("ψ"), purpose.swing, ANGLE, "the rocker's swing")
-        rocker = self.work.known(Symbol("r", "4"), self._bar("O4", "B"), LENGTH, "the rocker, chosen")
-        self.work.say("The chord between the two dead centres of the rocker's pin is H.")
+        swing = self.work.known(Symbol("ψ"), purpose.swing, ANGLE, said("the rocker's swing"))
+        rocker = self.work.known(Symbol("r", "4"), self._bar("O4", "B"), LENGTH, said("the rocker, chosen"))
+        self.work.say(said("The chord between the two dead centres of the rocker's pin is H."))
         chord = self._length("H", "", TWO * rocker * sin(swing / TWO))
         self.named |= {"ψ": swing, "c": rocker, "H": chord}
 
@@ -374,14 +394,16 @@ class _Chapter:
         """Add crank and coupler: one is chosen, the other follows from it and the chord."""
         crank, chord = self._bar("O2", "A"), self.named["H"]
         if even:
-            coupler = self.work.known(Symbol("r", "3"), self._bar("A", "B"), LENGTH, "chosen")
-            self.work.say("Without a quick return the crank is half the chord.")
+            coupler = self.work.known(Symbol("r", "3"), self._bar("A", "B"), LENGTH, said("chosen"))
+            self.work.say(said("Without a quick return the crank is half the chord."))
             found = self._length("r", "2", chord / TWO)
         else:
             self.work.say(
-                "Coupler minus crank and coupler plus crank, with α between them, form a triangle with H."
+                said(
+                    "Coupler minus crank and coupler plus crank, with α between them, form a triangle with H."
+                )
             )
-            found = self.work.known(Symbol("r", "2"), crank, LENGTH, "the crank, chosen")
+            found = self.work.known(Symbol("r", "2"), crank, LENGTH, said("the crank, chosen"))
             half = self.named["α"] / TWO
             coupler = self._length(
                 "r", "3", sqrt(square(chord) - square(TWO * found * cos(half))) / (TWO * sin(half))
@@ -395,7 +417,7 @@ class _Chapter:
         off = number("0")
         if not even:
             self.work.say(
-                "The crank's pivot lies this far off the line of the chord: the height of the triangle."
+                said("The crank's pivot lies this far off the line of the chord: the height of the triangle.")
             )
             off = self._length("e", "", (square(b) - square(a)) * sin(named["α"]) / chord)
         if "c" not in named:
@@ -409,7 +431,9 @@ class _Chapter:
         sides = [height - off, height + off]
         chosen = min(sides, key=lambda side: abs(math.hypot(across.value, side.value) - true))
         self.work.say(
-            "The rocker's pivot lies h off the chord, over its middle, m from the crank's pivot along it."
+            said(
+                "The rocker's pivot lies h off the chord, over its middle, m from the crank's pivot along it."
+            )
         )
         named["d"] = self._length("r", "1", sqrt(square(across) + square(chosen)))
         self.compared.append((named["d"], true))
@@ -420,18 +444,28 @@ class _Chapter:
         least = math.degrees(info.least) if info else 90.0
         a, b = named["a"], named["b"]
         if "c" not in named:
-            self.work.say("The rod is steepest where the crank is square to the guide.")
+            self.work.say(said("The rod is steepest where the crank is square to the guide."))
             found = self.work.let(Symbol("μ"), arccos((a + named["e"]) / b), ANGLE)
             self.compared.append((found, least))
             return
         c, d = named["c"], named["d"]
-        self.work.say("It is extreme where crank and ground are in line; beyond 90° its supplement counts.")
+        self.work.say(
+            said("It is extreme where crank and ground are in line; beyond 90° its supplement counts.")
+        )
         for n, reach in (("1", d - a), ("2", d + a)):
             corner = arccos((square(b) + square(c) - square(reach)) / (TWO * b * c))
             found = self.work.let(Symbol("μ", n), corner, ANGLE)
             if abs(min(found.value, 180 - found.value) - least) < 1e-3:
                 true = least if found.value <= 90 else 180 - least
                 self.compared.append((found, true))
+
+
+_MET_BY_TRAVEL = to_say(
+    "{function} is met at these points: x is the crank's angle θ to scale, y is the slider's travel s."
+)
+_MET_BY_ANGLE = to_say(
+    "{function} is met at these points: x is the crank's angle θ to scale, y is the output's angle ψ."
+)
 
 
 def _symbol(letter: str, sub: str = "") -> Formula:

@@ -16,6 +16,7 @@ from linkanim.scenes.editing import dimensions, with_dimensions
 from linkanim.scenes.form import LENGTHS, Key
 from linkanim.scenes.scene import PosesPurpose, Purpose, Scene, TimeRatioPurpose
 from linkanim.synthesis.constructions import is_synthesised
+from linkanim.words import said
 
 _TRIES, _FEW = 60, 20
 """How often lengths are drawn for a scene of few joints, and how many are few; for more it is less often."""
@@ -52,7 +53,7 @@ def variant(scene: Scene, seed: int, fits: Callable[[Scene], bool]) -> Scene:
         try:
             found = with_dimensions(scene, values)
             if _kind(found) == kind and _shapes(found) == shapes and fits(found):
-                return replace(found, title=f"{found.title}, with other lengths")
+                return replace(found, title=said("{title}, with other lengths", title=said(found.title)))
         except LinkanimError:
             continue
     return scene
@@ -71,7 +72,7 @@ def _made_anew(scene: Scene, purpose: Purpose, random: Random) -> Iterator[Scene
             if isinstance(purpose, PosesPurpose):
                 kind = "slider-crank" if sliding else "four-bar"
                 poses = _other_poses(np.array(purpose.poses), random)
-                title = f"{scene.title}, with other poses"
+                title = said("{title}, with other poses", title=said(scene.title))
                 # five poses leave no choice: the few linkages for them usually have defects
                 made = [
                     replace(one.scene, title=title)

@@ -50,6 +50,7 @@ from linkanim.mechanics.quantities import called
 from linkanim.mechanics.search import highest
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
+from linkanim.words import said, sentences, to_say
 
 _STRAIGHT, _ROUND = number("180", in_degrees=True), number("360", in_degrees=True)
 _TOUCHES = 1e-9
@@ -63,6 +64,37 @@ _ALIKE = 1e-4
 _DIGITS = 6
 _ENDS = ("back", "front")
 """The ends of a swing or a stroke."""
+_LEFT = to_say(
+    "{joint} always lies to the left of the line from {pin} to {fixed}, so the crank's angles at the two "
+    "dead centres are:"
+)
+_RIGHT = to_say(
+    "{joint} always lies to the right of the line from {pin} to {fixed}, so the crank's angles at the two "
+    "dead centres are:"
+)
+_AT_END = {
+    "input": {"back": to_say("input at its back end"), "front": to_say("input at its front end")},
+    "phase": {"back": to_say("phase at its back end"), "front": to_say("phase at its front end")},
+    "travel": {"back": to_say("travel at its back end"), "front": to_say("travel at its front end")},
+    "angle": {"back": to_say("angle at its back end"), "front": to_say("angle at its front end")},
+}
+_IN_LINE = {
+    "stretched": (
+        to_say("With the bars stretched, the input can turn back at these two angles."),
+        to_say(
+            "The cosine is {cosine}: with the bars stretched, all four links lie in one line, a change point."
+        ),
+        to_say("The cosine would be below −1: the bars are never stretched."),
+    ),
+    "folded": (
+        to_say("With the bars folded, the input can turn back at these two angles."),
+        to_say(
+            "The cosine is {cosine}: with the bars folded, all four links lie in one line, a change point."
+        ),
+        to_say("The cosine would be above 1: the bars are never folded."),
+    ),
+}
+"""What is said where the cosine is within its bounds, on them, and beyond."""
 
 
 def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
@@ -72,8 +104,8 @@ def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
     """
     found = _WholeMotion(scene, work)
     chapters = [
-        Chapter("Range of the input", tuple(found.reach())),
-        Chapter("Dead centres and time ratio", tuple(found.dead_centres())),
+        Chapter(said("Range of the input"), tuple(found.reach())),
+        Chapter(said("Dead centres and time ratio"), tuple(found.dead_centres())),
     ]
     return tuple(chapter for chapter in chapters if chapter.steps)
 
@@ -123,15 +155,21 @@ class _WholeMotion:
 
     def reach(self) -> Iterator[Step]:
         """Yield a step for each dyad that may fail to close, and the conclusion for the input."""
-        steps = [self._step(f"Closure at {marked(one.name)}", partial(self._of, one)) for one in self.dyads]
+        steps = [
+            self._step(said("Closure at {joint}", joint=marked(one.name)), partial(self._of, one))
+            for one in self.dyads
+        ]
         found = [step for step in steps if step]
         yield from found
         if found or not self.info.full_turn:
             self.work.items.clear()
-            goes = f"The {self.info.input_name} {self.info.motion_words}"
-            self.work.say(f"{goes}." if found else f"{goes}, as is given.")
+            goes = self.info.motion_said
+            self.work.say(
+                said("{found}.", found=goes) if found else said("{found}, as is given.", found=goes)
+            )
             if self.info.grashof:
-                self.work.say(f"Grashof: {self.info.grashof}; class: {self.info.class_name}.")
+                known = {"sums": self.info.grashof, "class_name": self.info.class_said}
+                self.work.say(said("Grashof: {sums}; class: {class_name}.", **known))
             yield Step("", tuple(self.work.items))
 
     def _of(self, joint: Joint) -> None:
@@ -169,23 +207,34 @@ class _WholeMotion:
         g, r = bars.ground, bars.crank
         if g.value * r.value == 0:
             work.say(
-                f"In the digits shown {marked(pin)} is equally far from {marked(fixed)} at every crank "
-                f"angle: the bars that meet at {marked(joint)} can be assembled at all of them or at none."
+                said(
+                    "In the digits shown {pin} is equally far from {fixed} at every crank angle: the "
+                    "bars that meet at {joint} can be assembled at all of them or at none.",
+                    pin=marked(pin),
+                    fixed=marked(fixed),
+                    joint=marked(joint),
+                )
             )
             return
         work.say(
-            f"At a limit of the input the two bars that meet at {marked(joint)} lie in one line, stretched "
-            "or "
-            f"folded, and the distance from {marked(pin)} to {marked(fixed)} is the sum or the difference of "
-            f"their lengths. With this distance the cosine rule in the triangle {marked(pivot)}, "
-            f"{marked(pin)}, "
-            f"{marked(fixed)} gives the crank's angle ψ from the ground line, and its cosine k:"
+            said(
+                "At a limit of the input the two bars that meet at {joint} lie in one line, "
+                "stretched or folded, and the distance from {pin} to {fixed} is the sum or the "
+                "difference of their lengths. With this distance the cosine rule in the triangle "
+                "{pivot}, {pin}, {fixed} gives the crank's angle ψ from the ground line, and its "
+                "cosine k:",
+                joint=marked(joint),
+                pin=marked(pin),
+                fixed=marked(fixed),
+                pivot=marked(pivot),
+            )
         )
-        for name, reach, low in (
-            ("stretched", bars.coupler + bars.output, True),
-            ("folded", bars.coupler - bars.output, False),
+        for name, reach in (
+            ("stretched", bars.coupler + bars.output),
+            ("folded", bars.coupler - bars.output),
         ):
             index = name[0]
+            turns, change, never = _IN_LINE[name]
             cosine = work.let(
                 Symbol("k", index), (square(g) + square(r) - square(reach)) / (TWO * g * r), RATIO
             )
@@ -193,15 +242,11 @@ class _WholeMotion:
                 corner = work.let(Symbol("ψ", index), arccos(cosine), ANGLE)
                 for sign, angle in (("1", bars.tilt + corner), ("2", bars.tilt - corner)):
                     work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
-                work.say(f"With the bars {name}, the input can turn back at these two angles.")
+                work.say(said(turns))
             elif abs(abs(cosine.value) - 1) <= _ONE:
-                work.say(
-                    f"The cosine is {round(cosine.value)}: with the bars {name}, all four links lie in one "
-                    f"line, a change point."
-                )
+                work.say(said(change, cosine=round(cosine.value)))
             else:
-                bound = "below −1" if low else "above 1"
-                work.say(f"The cosine would be {bound}: the bars are never {name}.")
+                work.say(said(never))
 
     def _slider_crank(self, joint: Joint) -> _SliderCrank | None:
         """Return the slider-crank that a joint closes on the driven crank; None where it closes none."""
@@ -226,33 +271,47 @@ class _WholeMotion:
     @staticmethod
     def _where_beside(found: _SliderCrank) -> str:
         if found.beside.constant == 0:
-            return "The crank's pivot lies on the line of the guide"
-        return "c is the distance of the crank's pivot from the guide, positive to its left"
+            return said("The crank's pivot lies on the line of the guide.")
+        return said("c is the distance of the crank's pivot from the guide, positive to its left.")
 
     def _limits_of_slider(self, found: _SliderCrank) -> None:
         """Add whether the rod reaches the guide from everywhere on the crank's circle."""
         work, joint, crank, rod = self.work, found.joint, found.crank, found.rod
         work.say(
-            f"The rod reaches the guide as long as {marked(joint.end)} is no farther from the guide than the "
-            f"rod's length. {self._where_beside(found)}; the greatest distance of {marked(joint.end)} from "
-            "the guide is:"
+            sentences(
+                said(
+                    "The rod reaches the guide as long as {end} is no farther from the guide than the "
+                    "rod's length.",
+                    end=marked(joint.end),
+                ),
+                self._where_beside(found),
+                said("The greatest distance of {end} from the guide is:", end=marked(joint.end)),
+            )
         )
         beside = self._beside(found)
         farthest = work.let(Symbol("n", "max"), crank + (beside if beside.value >= 0 else -beside), LENGTH)
         if rod.value - farthest.value > _TOUCHES * rod.value:
             work.say(
-                f"This is less than the rod's length, {rod.shown} {work.scale.unit}: the rod always reaches."
+                said(
+                    "This is less than the rod's length, {rod} {unit}: the rod always reaches.",
+                    rod=rod.shown,
+                    unit=work.scale.unit,
+                )
             )
             return
         if self.info.full_turn:
             work.say(
-                "This is the rod's length: where the rod is perpendicular to the guide there is a change "
-                "point."
+                said(
+                    "This is the rod's length: where the rod is perpendicular to the guide there is a "
+                    "change point."
+                )
             )
             return
         work.say(
-            "This is more than the rod's length: the input can turn back where the rod is perpendicular to "
-            "it:"
+            said(
+                "This is more than the rod's length: the input can turn back where the rod is "
+                "perpendicular to it:"
+            )
         )
         for index, reach in (("l", rod), ("r", -rod)):
             sine = (reach - beside) / crank
@@ -288,18 +347,26 @@ class _WholeMotion:
     def _say_bounds(self, joint: str, reach: Reach, ends: tuple[float, float]) -> None:
         unit, least = self.work.scale.unit, _NEAR * self.scene.linkage.longest
         low, high = (significant(end, _DIGITS) for end in ends)
-        runs = f"Over the motion this distance lies between {low} {unit} and {high} {unit}"
+        runs = said(
+            "Over the motion this distance lies between {low} {unit} and {high} {unit}",
+            low=low,
+            unit=unit,
+            high=high,
+        )
         if reach.low <= 0:
-            runs = f"Over the motion this distance is at most {high} {unit}"
+            runs = said("Over the motion this distance is at most {high} {unit}", high=high, unit=unit)
         elif math.isinf(reach.high):
-            runs = f"Over the motion this distance is at least {low} {unit}"
+            runs = said("Over the motion this distance is at least {low} {unit}", low=low, unit=unit)
         if ends[0] - reach.low > least and reach.high - ends[1] > least:
-            self.work.say(f"{runs}, so it never comes to its bound.")
+            self.work.say(said("{found}, so it never comes to its bound.", found=runs))
         elif joint in self.scene.mechanism.stops:
-            self.work.say(f"{runs}. It comes to its bound where the input turns back.")
+            self.work.say(said("{found}. It comes to its bound where the input turns back.", found=runs))
         else:
             self.work.say(
-                f"{runs}. It comes to its bound at a change point, through which the motion continues."
+                said(
+                    "{found}. It comes to its bound at a change point, through which the motion continues.",
+                    found=runs,
+                )
             )
 
     # Dead centres and time ratio: where the output turns back, how far it goes, and how long each way takes.
@@ -350,9 +417,14 @@ class _WholeMotion:
         """Add stroke and time ratio of a slider-crank whose crank turns fully."""
         work, crank, rod = self.work, found.crank, found.rod
         work.say(
-            "The slider turns back where crank and rod lie in one line, stretched and folded. "
-            f"{self._where_beside(found)}. Its two extreme positions s, the stroke H, and the angles λ of "
-            "crank and rod to the guide there:"
+            sentences(
+                said("The slider turns back where crank and rod lie in one line, stretched and folded."),
+                self._where_beside(found),
+                said(
+                    "Its two extreme positions s, the stroke H, and the angles λ of crank and rod to the "
+                    "guide there:"
+                ),
+            )
         )
         beside = self._beside(found)
         square_ = square(beside)
@@ -372,11 +444,15 @@ class _WholeMotion:
         """Add swing and time ratio of a crank-rocker."""
         work, (pivot, pin, joint, fixed) = self.work, bars.joints
         work.say(
-            "The rocker turns back where crank and coupler lie in one line, stretched and folded: the "
-            "distance "
-            f"ℓ from {marked(pivot)} to {marked(joint)} is then the sum or the difference of their lengths. "
-            f"The cosine rule in the triangle {marked(pivot)}, {marked(joint)}, {marked(fixed)} gives its "
-            f"angles β at {marked(pivot)} and ψ at {marked(fixed)}:"
+            said(
+                "The rocker turns back where crank and coupler lie in one line, stretched and "
+                "folded: the distance ℓ from {pivot} to {joint} is then the sum or the difference of "
+                "their lengths. The cosine rule in the triangle {pivot}, {joint}, {fixed} gives its "
+                "angles β at {pivot} and ψ at {fixed}:",
+                pivot=marked(pivot),
+                joint=marked(joint),
+                fixed=marked(fixed),
+            )
         )
         g, r = bars.ground, bars.output
         at_pivot, at_fixed = [], []
@@ -397,15 +473,20 @@ class _WholeMotion:
         places = self.work.pose.position
         corners = [complex(*places[name]) for name in (pin, fixed, joint)]
         left = ((corners[1] - corners[0]).conjugate() * (corners[2] - corners[0])).imag > 0
-        side = "left" if left else "right"
         work.say(
-            f"{marked(joint)} always lies to the {side} of the line from {marked(pin)} to {marked(fixed)}, "
-            "so the crank's angles at the two dead centres are:"
+            said(
+                _LEFT if left else _RIGHT,
+                joint=marked(joint),
+                pin=marked(pin),
+                fixed=marked(fixed),
+            )
         )
         turned = [angle if left else -angle for angle in at_pivot]
         work.let(Symbol("θ", "stretched"), bars.tilt + turned[0], ANGLE)
         work.let(Symbol("θ", "folded"), bars.tilt + _STRAIGHT + turned[1], ANGLE)
-        work.say("The swing of the rocker, the crank's angle during the slow stroke, and the time ratio:")
+        work.say(
+            said("The swing of the rocker, the crank's angle during the slow stroke, and the time ratio:")
+        )
         work.let(Symbol("ψ", "swing"), at_fixed[0] - at_fixed[1], ANGLE)
         lean = at_pivot[0] - at_pivot[1]
         self._ratio(_STRAIGHT + (lean if lean.value >= 0 else at_pivot[1] - at_pivot[0]))
@@ -415,8 +496,11 @@ class _WholeMotion:
         if phases is None:
             return
         work, scene, sliding = self.work, self.scene, body.slider is not None
-        rate = "velocity" if sliding else "angular velocity"
-        work.say(f"It turns back where its {rate} is zero, found here by numerical search:")
+        work.say(
+            said("It turns back where its velocity is zero, found here by numerical search:")
+            if sliding
+            else said("It turns back where its angular velocity is zero, found here by numerical search:")
+        )
         motion = scene.solve(phase=np.array(phases), derivatives=0)
         # the first angle is given within one turn, the second by the swing from there
         first = (
@@ -425,7 +509,7 @@ class _WholeMotion:
             else float(scene.pose(phases[0], 0).angle[body.name])
         )
         first = first if sliding else math.remainder(first, math.tau)
-        measure, letter, words = (LENGTH, "s", "travel") if sliding else (ANGLE, "ψ", "angle")
+        measure, letter, of = (LENGTH, "s", "travel") if sliding else (ANGLE, "ψ", "angle")
         by_angle = self._steady and scene.linkage.drive.coordinate.is_angle
         inputs = motion.coordinate if by_angle else phases
         places = [
@@ -433,13 +517,12 @@ class _WholeMotion:
                 Symbol("θ" if by_angle else "φ", end),
                 float(at) % math.tau,
                 ANGLE,
-                f"{what} at its {end} end",
+                said(_AT_END["input" if by_angle else "phase"][end]),
             )
             for at, end in zip(inputs, _ENDS, strict=True)
-            for what in ("input" if by_angle else "phase",)
         ]
         ends = [
-            self._found(Symbol(letter, end), value, measure, f"{words} at its {end} end")
+            self._found(Symbol(letter, end), value, measure, said(_AT_END[of][end]))
             for end, value in zip(_ENDS, (first, first + stroke), strict=True)
         ]
         work.let(Symbol("H") if sliding else Symbol("ψ", "swing"), ends[1] - ends[0], measure)
@@ -451,18 +534,28 @@ class _WholeMotion:
             self._ratio(slow)
         elif self.info.true_period > 1:
             work.say(
-                f"The motion repeats after {self.info.true_period} periods of the input. The slow stroke "
-                f"takes {ratio:.4f} times as long as the quick one."
+                said(
+                    "The motion repeats after {true_period} periods of the input. The slow stroke takes "
+                    "{ratio} times as long as the quick one.",
+                    true_period=self.info.true_period,
+                    ratio=f"{ratio:.4f}",
+                )
             )
         elif quick < _ALIKE * _ROUND.value:
             work.say(
-                "The quick stroke is too short for the digits shown; the slow one takes "
-                f"{ratio:.4g} times as long."
+                said(
+                    "The quick stroke is too short for the digits shown; the slow one takes {ratio} "
+                    "times as long.",
+                    ratio=f"{ratio:.4g}",
+                )
             )
         else:
             work.say(
-                "It comes to one of them more than once before the motion repeats. From one to the next "
-                f"the slow stroke takes {ratio:.4f} times as long as the quick one."
+                said(
+                    "It comes to one of them more than once before the motion repeats. From one to the "
+                    "next the slow stroke takes {ratio} times as long as the quick one.",
+                    ratio=f"{ratio:.4f}",
+                )
             )
 
     def _found(self, symbol: Symbol, value: float, measure: Powers, words: str) -> Formula:
@@ -476,6 +569,11 @@ class _WholeMotion:
         """Add the angle of the slow way, and how much longer it takes than the quick one."""
         found = self.work.let(Symbol("θ", "slow"), slow, ANGLE)
         self.work.let(Symbol("T", "R"), found / (_ROUND - found), RATIO)
+
+
+def is_searched(item: Item) -> bool:
+    """Return whether an item is a number found by search: an end of a swing or a stroke."""
+    return isinstance(item, Given) and item.value.symbol is not None and item.value.symbol.sub in _ENDS
 
 
 def _signed(function: Callable[[np.ndarray], np.ndarray], sign: int, places: np.ndarray) -> np.ndarray:

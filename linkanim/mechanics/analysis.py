@@ -52,6 +52,17 @@ from linkanim.mechanics.tolerances import (
     TURNING_WITH_IT,
 )
 from linkanim.units import degrees, short, significant, typeset
+from linkanim.words import (
+    ENGLISH,
+    cached_as_said,
+    name_said,
+    row_said,
+    said,
+    said_as,
+    said_many,
+    speaking,
+    to_say,
+)
 
 # In which step each joint is solved: the causal chain from the input to the output.
 
@@ -177,18 +188,24 @@ def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:
 _EACH_NAMED = 4
 """Up to this many four-bars in a row each is named, beyond that only the first."""
 TRIPLE_ROCKERS = {
-    "ground": "outward/outward",
-    "input": "outward/inward",
-    "output": "inward/outward",
-    "coupler": "inward/inward",
+    "ground": to_say("outward/outward"),
+    "input": to_say("outward/inward"),
+    "output": to_say("inward/outward"),
+    "coupler": to_say("inward/inward"),
 }
 GRASHOF = {
-    "ground": "drag-link (double crank)",
-    "input": "crank-rocker",
-    "output": "crank-rocker driven at its rocker",
-    "coupler": "double-rocker",
+    "ground": to_say("drag-link (double crank)"),
+    "input": to_say("crank-rocker"),
+    "output": to_say("crank-rocker driven at its rocker"),
+    "coupler": to_say("double-rocker"),
 }
 
+SHORTEST = {
+    "ground": to_say("the ground"),
+    "input": to_say("the input"),
+    "coupler": to_say("the coupler"),
+    "driven link": to_say("the driven link"),
+}
 _PARTS = re.compile(r"(crank|rocker|coupler|drag)\d*")
 """Names by which a scene says what a body does."""
 _ORDINALS = {2: "second", 3: "third"}
@@ -245,25 +262,33 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     dyads = [joint for joint in linkage.joints if joint.dyad]
     geared = any(crank.gear and not crank.gear.motor for crank in linkage.cranks)
     if linkage.motors and dyads:
-        words = "two motors" if len(linkage.motors) == 1 else f"{len(linkage.motors) + 1} motors"
-        count = 1 + len([*linkage.cranks]) + 2 * len(dyads)
-        return f"{bars_named(count)} with {words}"
-    slider = " with slider" if any(joint.travels for joint in dyads) else ""
+        bars = bars_named(1 + len([*linkage.cranks]) + 2 * len(dyads))
+        if len(linkage.motors) == 1:
+            return said("{bars} with two motors", bars=bars)
+        return said("{bars} with {count} motors", bars=bars, count=len(linkage.motors) + 1)
+    slider = any(joint.travels for joint in dyads)
     cranks = {crank.name for crank in linkage.cranks}
     if geared and any(isinstance(joint, RRR) and cranks.issuperset(joint.ends) for joint in dyads):
-        return f"geared five-bar{slider}"
+        return said("geared five-bar with slider") if slider else said("geared five-bar")
     if geared and len(dyads) > 1:
-        more = " and slider" if slider else ""
-        return f"{bars_named(1 + len(cranks) + 2 * len(dyads))} linkage with gears{more}"
+        bars = bars_named(1 + len(cranks) + 2 * len(dyads))
+        if slider:
+            return said("{bars} linkage with gears and slider", bars=bars)
+        return said("{bars} linkage with gears", bars=bars)
     if four_bar is not None:
         name = _four_bar_name(four_bar)
-        return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
+        if len(dyads) == 1:
+            return name
+        return said("{bars}: {loops}", bars=_bars(len(dyads)), loops=_with_rest(name, mechanism, len(dyads)))
     if not dyads:
         return _cranks_name(linkage)
     if linkage.drive.actuator.noun is not None:
         return _driven_name(linkage, dyads, linkage.drive.actuator.noun)
     own = CLOSERS[type(dyads[0])].name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
-    return own or f"{_bars(len(dyads))} linkage{slider}"
+    if own:
+        return said(own)
+    bars = _bars(len(dyads))
+    return said("{bars} linkage with slider", bars=bars) if slider else said("{bars} linkage", bars=bars)
 
 
 def group_name(group: LinkGroup) -> str:
@@ -273,16 +298,29 @@ def group_name(group: LinkGroup) -> str:
     """
     sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
     geared, driven = (any(gear.motor == motor for gear in group.gears) for motor in (False, True))
-    has = zip(("slider", "slot", "gears", "further motors"), (*sliding, geared, driven), strict=True)
-    parts = " and ".join(word for word, there in has if there)
-    count = len(group.members) + sum(slide.turns for slide in group.slides)
-    return f"{bars_named(count)} linkage{f' with {parts}' if parts else ''}"
+    has = zip(_HAS, (*sliding, geared, driven), strict=True)
+    parts = [said(word) for word, there in has if there]
+    bars = bars_named(len(group.members) + sum(slide.turns for slide in group.slides))
+    if not parts:
+        return said("{bars} linkage", bars=bars)
+    return said("{bars} linkage with {parts}", bars=bars, parts=said_as("list", " and ").join(parts))
+
+
+_HAS = to_say("slider"), to_say("slot"), to_say("gears"), to_say("further motors")
+_BARS = (
+    to_say("four-bar"),
+    to_say("five-bar"),
+    to_say("six-bar"),
+    to_say("seven-bar"),
+    to_say("eight-bar"),
+    to_say("nine-bar"),
+    to_say("ten-bar"),
+)
 
 
 def bars_named(count: int) -> str:
     """Name a linkage by the number of its links."""
-    words = ("four", "five", "six", "seven", "eight", "nine", "ten")
-    return f"{words[count - 4] if 4 <= count <= 10 else count}-bar"
+    return said(_BARS[count - 4]) if 4 <= count <= 10 else said("{count}-bar", count=count)
 
 
 def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:
@@ -291,32 +329,34 @@ def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:
     ends = set(first.ends) if isinstance(first, RRR) else set()
     cranked = linkage.drive.joint in ends and any(pin.name in ends for pin in linkage.pins)
     if cranked and len(dyads) == 1:
-        return f"slider-crank driven at its {noun}"
-    return f"{_bars(len(dyads))} linkage driven by a {noun}"
+        return said("slider-crank driven at its {noun}", noun=name_said(noun))
+    return said("{bars} linkage driven by a {noun}", bars=_bars(len(dyads)), noun=name_said(noun))
 
 
 def _cranks_name(linkage: Linkage) -> str:
     """Name a linkage without dyads by how its cranks turn."""
     if linkage.drive.actuator.linkage_name is not None:
-        return linkage.drive.actuator.linkage_name
+        return said(linkage.drive.actuator.linkage_name)
     geared = [crank for crank in linkage.cranks if crank.gear and not crank.gear.motor]
     if any(not linkage.joint(crank.pivot).fixed for crank in geared):
-        return "epicyclic gear train"
-    return "geared cranks" if geared else "crank"
+        return said("epicyclic gear train")
+    return said("geared cranks") if geared else said("crank")
 
 
 def _bars(dyads: int) -> str:
     """Name the linkage by its links: ground, crank and two for each dyad."""
-    return {1: "four-bar", 2: "six-bar", 3: "eight-bar"}.get(dyads, f"{2 * dyads + 2}-bar")
+    return bars_named(2 * dyads + 2) if dyads < 4 else said("{count}-bar", count=2 * dyads + 2)
 
 
-def _rest(mechanism: Mechanism, dyads: int) -> str:
-    """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
+def _with_rest(first: str, mechanism: Mechanism, dyads: int) -> str:
+    """Name the `first` loop and those after it, as far as they are four-bars, or how many dyads follow."""
     if dyads <= _EACH_NAMED:
         further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
         if len(further) == dyads - 1:
-            return "".join(f", then {name}" for name in further)
-    return " and a second dyad" if dyads == 2 else f" and {dyads - 1} further dyads"
+            return said_as("list", ", then ").join((first, *further))
+    if dyads == 2:
+        return said("{first} and a second dyad", first=first)
+    return said("{first} and {count} further dyads", first=first, count=dyads - 1)
 
 
 def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
@@ -362,8 +402,8 @@ def _four_bar_name(bar: FourBar) -> str:
     if bar.change_points:
         return _change_point_name(bar)
     if bar.margin > 0:
-        return "Grashof " + GRASHOF[_part(bar, min)]
-    return f"triple-rocker ({TRIPLE_ROCKERS[_part(bar, max)]})"
+        return said("Grashof {kind}", kind=said(GRASHOF[_part(bar, min)]))
+    return said("triple-rocker ({kind})", kind=said(TRIPLE_ROCKERS[_part(bar, max)]))
 
 
 def _part(bar: FourBar, pick: Callable[..., str]) -> str:
@@ -375,10 +415,10 @@ def _change_point_name(bar: FourBar) -> str:
     g, r, a, b = bar.links.values()
     same = partial(math.isclose, rel_tol=EQUAL_LINKS)
     if same(g, a) and same(r, b):
-        return "parallelogram" if bar.sign > 0 else "antiparallelogram"
+        return said("parallelogram") if bar.sign > 0 else said("antiparallelogram")
     if (same(g, r) and same(a, b)) or (same(g, b) and same(a, r)):
-        return "kite (change point)"
-    return "change-point " + GRASHOF[_part(bar, min)]
+        return said("kite (change point)")
+    return said("change-point {kind}", kind=said(GRASHOF[_part(bar, min)]))
 
 
 def turning_bodies(mechanism: Mechanism) -> tuple[str, ...]:
@@ -481,7 +521,13 @@ class Info:
 
     @cached_property
     def class_name(self) -> str:
-        """The class, in words."""
+        """The class, in English words, as files and JSON have it."""
+        with speaking(ENGLISH):
+            return class_name(self.mechanism, self._four_bar)
+
+    @cached_as_said
+    def class_said(self) -> str:
+        """The class, in the language that is spoken."""
         return class_name(self.mechanism, self._four_bar)
 
     @cached_property
@@ -500,10 +546,11 @@ class Info:
         if not stops:
             return None
         if self._four_bar is None or stops != (self._four_bar.joint,):
-            return f"{' and '.join(stops)} cannot close all the way round"
+            return said("{joints} cannot close all the way round", joints=row_said(stops))
         if self._four_bar.margin < 0:
             return self.grashof
-        return f"{self.grashof}, but the shortest is the {self._four_bar.shortest}"
+        shortest = said(SHORTEST[self._four_bar.shortest])
+        return said("{sums}, but the shortest is {shortest}", sums=self.grashof, shortest=shortest)
 
     @property
     def input_range(self) -> tuple[float, float]:
@@ -680,18 +727,37 @@ class Info:
         return self.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
 
     @property
+    def input_said(self) -> str:
+        """What the driven bar is called, in the language that is spoken."""
+        return name_said(self.input_name)
+
+    @property
+    def coordinate_said(self) -> str:
+        """What the input's coordinate is called, in the language that is spoken: "crank angle"."""
+        if self.mechanism.linkage.drive.coordinate.is_angle:
+            return said("{link} angle", link=self.input_said)
+        return said("{link} travel", link=self.input_said)
+
+    @property
+    def motion_said(self) -> str:
+        """What the input does: "The crank turns fully"."""
+        return said("The {link} {moves}", link=self.input_said, moves=self.motion_words)
+
+    @property
     def input_words(self) -> str:
         """How far the input goes, in words, and how far from another start."""
         drive = self.mechanism.linkage.drive
         if self.full_turn or not drive.coordinate.is_angle:
             return self.motion_words
-        return f"{drive.actuator.moves} {self.ranges('{}…{}', degrees)}"
+        return said(drive.actuator.moves, ends=self.ranges("{}…{}", degrees))
 
     @property
     def motion_words(self) -> str:
         """How far the input goes, in words; at hand at once."""
         moves = self.mechanism.linkage.drive.actuator.moves
-        return "turns fully" if self.full_turn else f"{moves} {_places(self, self.input_range, '…')}"
+        return (
+            said("turns fully") if self.full_turn else said(moves, ends=_places(self, self.input_range, "…"))
+        )
 
     def ranges(self, form: str, end: Callable[[float], str]) -> str:
         """Return the input's range in words, and those that it has when it starts elsewhere.
@@ -700,11 +766,14 @@ class Info:
         """
         ranges = (self.input_range, *self.mechanism.other_ranges)
         own, *others = (form.format(*map(end, ends)) for ends in ranges)
-        return f"{own}, and {' or '.join(others)} where its start lies there" if others else own
+        if not others:
+            return own
+        joined = said_as("list", " or ").join(others)
+        return said("{range}, and {others} where its start lies there", range=own, others=joined)
 
-    @cached_property
+    @cached_as_said
     def lines(self) -> tuple[tuple[str, str], ...]:
-        """Label and value of each fact, in words."""
+        """Label and value of each fact, in words; the labels are English, and said where they are shown."""
         return tuple((label, value) for label, value in _facts(self) if value)
 
     @cached_property
@@ -821,38 +890,74 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     """Yield label and value of each fact, in words; None where there is none."""
     links, joints, mobility = info.counts
     turning = (info.link_names[name] for name in info.turning_links)
-    yield "class", info.class_name
-    yield "links, joints", f"{links}, {joints}; mobility {mobility}"
+    yield "class", info.class_said
+    counts = {"links": links, "joints": joints, "mobility": mobility}
+    yield "links, joints", said("{links}, {joints}; mobility {mobility}", **counts)
     yield "groups", _groups(info.mechanism.linkage)
     yield "solved together", _together(info)
     yield "Grashof", info.grashof
     yield "input", info.input_words
     start = info.unreached_start
-    yield "start", None if start is None else f"{degrees(start)} is not reached"
+    yield "start", None if start is None else said("{angle} is not reached", angle=degrees(start))
     yield "returns", _returns(info)
-    yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in turning)
+    yield "turns fully", said_as("list", ", ").join(map(_link_said, turning))
     yield "toggles at", _places(info, info.toggles)
     yield "change points", _places(info, info.change_points)
     yield "circuits", str(info.circuits or "")
     yield "transmission angle", info.transmission and _worst(info, info.transmission)
     yield "stroke", None if info.stroke is None else f"{significant(info.stroke, 6)} {info.length_unit}"
-    yield "swing", info.swing and f"{degrees(info.swing.stroke)} of {info.output_name}"
+    yield (
+        "swing",
+        info.swing and said("{angle} of {link}", angle=degrees(info.swing.stroke), link=info.output_name),
+    )
     yield "time ratio", None if info.time_ratio is None else f"{info.time_ratio:.4f}"
     if info.demand is not None:
         (work, *efforts), (name, unit) = info.demand, info.effort
         yield "work per period", f"{typeset(significant(work, 6))} J"
-        unknown = ("unbounded", f"undefined, since the {name} is unbounded at a limit")
+        unbounded = said("undefined, since the {effort} is unbounded at a limit", effort=said(name))
+        unknown = (said("unbounded"), unbounded)
         for word, value, without in zip(("peak", "mean"), efforts, unknown, strict=True):
             yield f"{word} {name}", without if value is None else f"{typeset(significant(value, 6))} {unit}"
-    turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
-    yield "true period", f"{turns}, {short(info.period_seconds)} s"
+    turns = said_many("one drive period", "{count} drive periods", info.true_period)
+    yield "true period", said("{periods}, {time} s", periods=turns, time=short(info.period_seconds))
+
+
+FACTS = (
+    to_say("class"),
+    to_say("links, joints"),
+    to_say("groups"),
+    to_say("solved together"),
+    to_say("Grashof"),
+    to_say("input"),
+    to_say("start"),
+    to_say("returns"),
+    to_say("turns fully"),
+    to_say("toggles at"),
+    to_say("change points"),
+    to_say("circuits"),
+    to_say("transmission angle"),
+    to_say("stroke"),
+    to_say("swing"),
+    to_say("time ratio"),
+    to_say("work per period"),
+    to_say("peak torque"),
+    to_say("mean torque"),
+    to_say("peak force"),
+    to_say("mean force"),
+    to_say("true period"),
+)
+"""The labels of facts, to be said where they are shown."""
+
+
+def _link_said(name: str) -> str:
+    return said("link {name}", name=name) if name.isdecimal() else name_said(name)
 
 
 def _worst(info: Info, transmission: Transmission) -> str:
     """Return the least transmission angle in words, its dyad and where the input is then."""
-    least = f"{significant(math.degrees(transmission.least), 3)}° at {transmission.dyad}"
+    known = {"angle": significant(math.degrees(transmission.least), 3), "joint": transmission.dyad}
     if transmission.greatest - transmission.least <= SAME_PLACE:
-        return f"μ = {least}, all the way"
+        return said("μ = {angle}° at {joint}, all the way", **known)
     linkage = info.mechanism.linkage
     place = float(info.mechanism.solve(phase=transmission.phase, speed=1.0, derivatives=0).coordinate)
     if not linkage.drive.coordinate.is_angle:
@@ -862,20 +967,20 @@ def _worst(info: Info, transmission: Transmission) -> str:
         told = significant(turned, 3)
         where = "0°" if info.full_turn and told == "360" else f"{typeset(told)}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
-    return f"μ ≥ {least}, {symbol} = {where}"
+    return said("μ ≥ {angle}° at {joint}, {place}", **known, place=f"{symbol} = {where}")
 
 
 def _groups(linkage: Linkage) -> str | None:
     """Return the dyads in the order in which they are solved, by their kinds; None of fewer than two."""
     dyads = [joint for joint in linkage.joints if joint.dyad and not joint.grouped]
     kinds = (f"{joint.name} ({type(joint).__name__})" for joint in dyads)
-    return f"dyads {', '.join(kinds)}" if len(dyads) > 1 else None
+    return said("dyads {kinds}", kinds=", ".join(kinds)) if len(dyads) > 1 else None
 
 
 def _together(info: Info) -> str | None:
     """Return the links that can only be solved together; None of a chain of dyads."""
     group = group_of(info.mechanism.linkage)
-    return None if group is None else ", ".join(member.name for member in group.free)
+    return None if group is None else ", ".join(name_said(member.name) for member in group.free)
 
 
 def _returns(info: Info) -> str | None:
@@ -883,11 +988,16 @@ def _returns(info: Info) -> str | None:
     if not info.kept:
         return None
     if info.mechanism.linkage.drive.retraced:
-        return "on the same closure; velocities change sign at the limits"
-    at, it = ("", "the limits") if info.mechanism.retraced else (f" at {_places(info, info.kept)}", "it")
-    return (
-        f"on the same closure{at}, as beyond {it} its links do not close on the whole swing; "
-        "velocities change sign there"
+        return said("on the same closure; velocities change sign at the limits")
+    if info.mechanism.retraced:
+        return said(
+            "on the same closure, as beyond the limits its links do not close on the whole swing; "
+            "velocities change sign there"
+        )
+    return said(
+        "on the same closure at {places}, as beyond it its links do not close on the whole swing; "
+        "velocities change sign there",
+        places=_places(info, info.kept),
     )
 
 

@@ -23,6 +23,7 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.tolerances import FAR, ONE_POINT
 from linkanim.units import short, stepped, unit_of
+from linkanim.words import name_said, said, to_say
 
 # What a joint is, whatever its kind: what all kinds have, and the lines along which sliders travel.
 #
@@ -309,7 +310,7 @@ class RRR(Joint):
     def at_limit(self) -> str:
         """Its bars lie in one line, stretched or folded."""
         one, other = (f"{end}–{self.name}" for end in self.ends)
-        return f"the bars {one} and {other} lie in one line"
+        return said("the bars {one} and {other} lie in one line", one=one, other=other)
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
@@ -364,7 +365,10 @@ class RRP(Guided):
     @property
     def at_limit(self) -> str:
         """Its bar reaches no farther than the line."""
-        return f"the bar {self.end}–{self.name} stands straight across the line of travel of {self.name}"
+        bar = f"{self.end}–{self.name}"
+        return said(
+            "the bar {bar} stands straight across the line of travel of {joint}", bar=bar, joint=self.name
+        )
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: 90° less the bar's angle to the line.
@@ -438,7 +442,8 @@ class RPR(Joint):
     @property
     def at_limit(self) -> str:
         """The pin is at the point of the slot that is nearest to its pivot."""
-        return f"{self.through} is as near to {self.pivot} as the offset of the slot lets it come"
+        pins = {"pin": self.through, "pivot": self.pivot}
+        return said("{pin} is as near to {pivot} as the offset of the slot lets it come", **pins)
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
@@ -692,6 +697,13 @@ class DrivenSlider(Guided):
 # What moves a linkage, as data: a motor on its crank, a cylinder, a slider; and what tells where it is.
 
 
+_STRUT_TITLES = {
+    "spring": to_say("Spring {name}"),
+    "damper": to_say("Damper {name}"),
+    "cylinder": to_say("Cylinder {name}"),
+}
+
+
 class Coordinate(NamedTuple):
     """The coordinate of the input: an angle in radians, or a travel in the scene's unit of length.
 
@@ -727,23 +739,23 @@ class Coordinate(NamedTuple):
         return stepped(self.shown(value), step) + ("°" if self.is_angle else f" {length_unit}")
 
 
-ANGLE = Coordinate("angle", "θ", "rad", "angular velocity")
-TRAVEL = Coordinate("travel", "s", "{}", "velocity")
+ANGLE = Coordinate(to_say("angle"), "θ", "rad", to_say("angular velocity"))
+TRAVEL = Coordinate(to_say("travel"), "s", "{}", to_say("velocity"))
 
 
 @frozen
 class Actuator(Stated):
     """What drives the input; this class itself is a motor on the crank.
 
-    `effort` is what it delivers, and its unit. `noun` is the input's name where no bar turns; `moves` is the
-    verb of an input that turns back, `cycles` the plural by which its ways there and back are counted;
+    `effort` is what it delivers, and its unit. `noun` is the input's name where no bar turns; `moves` says
+    that it turns back, and where, `cycles` is the plural by which its ways there and back are counted;
     `linkage_name` is the class of a linkage without dyads.
     """
 
     coordinate: ClassVar[Coordinate] = ANGLE
-    effort: ClassVar[tuple[str, str]] = ("torque", "N m")
+    effort: ClassVar[tuple[str, str]] = (to_say("torque"), "N m")
     noun: ClassVar[str | None] = None
-    moves: ClassVar[str] = "swings"
+    moves: ClassVar[str] = to_say("swings {ends}")
     cycles: ClassVar[str] = "swings"
     linkage_name: ClassVar[str | None] = None
 
@@ -770,7 +782,7 @@ class Cylinder(Actuator):
 
     sized: ClassVar[tuple[str, ...]] = ("first", "last")
     effort: ClassVar[tuple[str, str]] = ("force", "N")
-    linkage_name: ClassVar[str | None] = "crank driven by a cylinder"
+    linkage_name: ClassVar[str | None] = to_say("crank driven by a cylinder")
 
     @property
     def along(self) -> tuple[str, str]:
@@ -779,8 +791,13 @@ class Cylinder(Actuator):
 
     def at_ends(self, unit: str) -> str:
         """Return the lengths between which it runs."""
-        lengths = f"{short(self.first)} {unit} long at one end and {short(self.last)} {unit} at the other"
-        return f"the cylinder {'–'.join(self.between)} is {lengths}"
+        return said(
+            "the cylinder {ends} is {first} {unit} long at one end and {last} {unit} at the other",
+            ends="–".join(self.between),
+            first=short(self.first),
+            last=short(self.last),
+            unit=unit,
+        )
 
 
 class CrankTriangle(NamedTuple):
@@ -806,9 +823,9 @@ class Travel(Actuator):
     coordinate: ClassVar[Coordinate] = TRAVEL
     effort: ClassVar[tuple[str, str]] = ("force", "N")
     noun: ClassVar[str | None] = "slider"
-    moves: ClassVar[str] = "slides"
+    moves: ClassVar[str] = to_say("slides {ends}")
     cycles: ClassVar[str] = "cycles"
-    linkage_name: ClassVar[str | None] = "slider"
+    linkage_name: ClassVar[str | None] = to_say("slider")
 
 
 MOTOR = Actuator()
@@ -1011,7 +1028,13 @@ class Linkage(Stated):
     def strut_words(self, strut: Spring | Damper) -> str:
         """Return a strut's name and sort, "return spring"; the name alone where it has that word in it."""
         word = self.strut_word(strut)
-        return strut.name if word in strut.name.lower().split() else f"{strut.name} {word}"
+        if word in strut.name.lower().split():
+            return name_said(strut.name)
+        return said("{name} {sort}", name=name_said(strut.name), sort=name_said(word))
+
+    def strut_title(self, strut: Spring | Damper) -> str:
+        """Return what a strut is called in a heading: "Spring return"."""
+        return said(_STRUT_TITLES[self.strut_word(strut)], name=name_said(strut.name))
 
     def joint(self, name: str) -> Joint:
         """Return the joint of that name; KeyError where there is none."""

@@ -30,6 +30,7 @@ from linkanim.mechanics.linkage import (
 )
 from linkanim.mechanics.precise import direction as exact_direction
 from linkanim.mechanics.tolerances import ASIDE, FEWER_ERRORS, ROUNDING, SLOW, STATED, STRAIGHT
+from linkanim.words import to_say
 
 # What a solved number says at a phase: a value, 0, unbounded, or no value at all.
 #
@@ -427,22 +428,22 @@ def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: 
 def _of_points(prefix: str) -> tuple[Measure, ...]:
     """Return the measures of joints, or of centres of mass, by what their names begin with in a motion."""
     return (
-        _solved(f"{prefix}position", "r", "position", "{}", 0),
-        _solved(f"{prefix}velocity", "v", "velocity", "{}/s", 1),
-        _solved(f"{prefix}acceleration", "a", "acceleration", "{}/s²", 2),
+        _solved(f"{prefix}position", "r", to_say("position"), "{}", 0),
+        _solved(f"{prefix}velocity", "v", to_say("velocity"), "{}/s", 1),
+        _solved(f"{prefix}acceleration", "a", to_say("acceleration"), "{}/s²", 2),
     )
 
 
 POINT, CENTRE = _of_points(""), _of_points("com_")
 TURNING = (
-    _solved("angle", "θ", "angle", "rad", 0, "angle"),
-    _solved("angular_velocity", "ω", "angular velocity", "rad/s", 1, "omega"),
-    _solved("angular_acceleration", "α", "angular acceleration", "rad/s²", 2, "alpha"),
+    _solved("angle", "θ", to_say("angle"), "rad", 0, "angle"),
+    _solved("angular_velocity", "ω", to_say("angular velocity"), "rad/s", 1, "omega"),
+    _solved("angular_acceleration", "α", to_say("angular acceleration"), "rad/s²", 2, "alpha"),
 )
 TRAVELLING = (
-    _solved("travel", "s", "travel", "{}", 0, "travel"),
-    _solved("travel_velocity", "v", "velocity", "{}/s", 1),
-    _solved("travel_acceleration", "a", "acceleration", "{}/s²", 2),
+    _solved("travel", "s", to_say("travel"), "{}", 0, "travel"),
+    _solved("travel_velocity", "v", to_say("velocity"), "{}/s", 1),
+    _solved("travel_acceleration", "a", to_say("acceleration"), "{}/s²", 2),
 )
 
 
@@ -454,8 +455,8 @@ def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, ...]:
     symbol, letter, units = (
         ("h", "q", (f"rad/{by}", f"rad/{by}²")) if turning else ("f", "s", (slid, f"{slid}²"))
     )
-    first = "coefficient", "1", symbol, "kinematic coefficient", units[0], 0, f"d{letter}/d{plain}"
-    words = "second kinematic coefficient"
+    first = "coefficient", "1", symbol, to_say("kinematic coefficient"), units[0], 0, f"d{letter}/d{plain}"
+    words = to_say("second kinematic coefficient")
     second = "second_coefficient", "2", f"{symbol}′", words, units[1], 0, f"d2{letter}/d{plain}2"
 
     def read(place: int) -> Callable[[Any, str], Any]:
@@ -531,11 +532,11 @@ def _of_struts(kind: str) -> tuple[Measure, ...]:
         return Measure(name, name, symbol, words, unit, order, name, read)
 
     return (
-        measure("length", "L", "length", "{}", 0),
-        measure("rate", "v", "rate of length", "{}/s", 1),
-        measure("force", "F", "force", "N", int(kind == "damper")),
-        measure("direction", "θ", "direction", "rad", 0),
-        measure("direction_rate", "ω", "rate of direction", "rad/s", 1),
+        measure("length", "L", to_say("length"), "{}", 0),
+        measure("rate", "v", to_say("rate of length"), "{}/s", 1),
+        measure("force", "F", to_say("force"), "N", int(kind == "damper")),
+        measure("direction", "θ", to_say("direction"), "rad", 0),
+        measure("direction_rate", "ω", to_say("rate of direction"), "rad/s", 1),
     )
 
 
@@ -620,9 +621,9 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
         return Measure(prefix + name, name, symbol, words, unit, order, name, read, divisor)
 
     return (
-        bent("normal_acceleration", "aⁿ", "normal acceleration", "{}/s²", 2, _across),
-        bent("tangential_acceleration", "aᵗ", "tangential acceleration", "{}/s²", 2, _along),
-        bent("curvature_radius", "ρ", "radius of curvature", "{}", 0, _radius_of_curvature),
+        bent("normal_acceleration", "aⁿ", to_say("normal acceleration"), "{}/s²", 2, _across),
+        bent("tangential_acceleration", "aᵗ", to_say("tangential acceleration"), "{}/s²", 2, _along),
+        bent("curvature_radius", "ρ", to_say("radius of curvature"), "{}", 0, _radius_of_curvature),
     )
 
 
@@ -668,12 +669,12 @@ def _of_slip(place: int, name: str, symbol: str, words: str, unit: str, order: i
 
 
 SLIP = (
-    _of_slip(0, "slip", "s", "slip", "{}", 0),
-    _of_slip(1, "slip_velocity", "v", "velocity of slip", "{}/s", 1),
-    _of_slip(2, "slip_acceleration", "a", "acceleration of slip", "{}/s²", 2),
+    _of_slip(0, "slip", "s", to_say("slip"), "{}", 0),
+    _of_slip(1, "slip_velocity", "v", to_say("velocity of slip"), "{}/s", 1),
+    _of_slip(2, "slip_acceleration", "a", to_say("acceleration of slip"), "{}/s²", 2),
 )
 """Along the line of a link that moves: where what slides on it is, seen from the link."""
-CORIOLIS = _of_slip(3, "coriolis", "aᶜ", "Coriolis acceleration", "{}/s²", 2)
+CORIOLIS = _of_slip(3, "coriolis", "aᶜ", to_say("Coriolis acceleration"), "{}/s²", 2)
 
 LEVER = "lever"
 """The solved arms of the dyads' reactions, which a linkage without forces does not have."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -53,6 +53,7 @@ from linkanim.mechanics.reactions import GROUND, guided, meeting, meshing
 from linkanim.mechanics.search import sign_changes
 from linkanim.mechanics.tolerances import LEVEL
 from linkanim.units import shown
+from linkanim.words import kept_as_said, name_said, said, said_as, to_say
 
 _STANDARD = {
     "crank": "2",
@@ -102,18 +103,25 @@ def called(body: Body, names: Mapping[str, str]) -> str:
     A body named by one letter is "Link b": the letter alone would be read as a joint's.
     """
     if body.name.isdecimal():
-        return f"Slider {body.slider}" if body.slider else f"Link {body.name}"
-    words = names.get(body.name, body.name)
-    return words[:1].upper() + words[1:] if len(words) >= _NOUN else f"Link {words}"
+        if body.slider:
+            return said("Slider {joint}", joint=body.slider)
+        return said("Link {name}", name=body.name)
+    name = names.get(body.name, body.name)
+    return _begun(name_said(name)) if len(name) >= _NOUN else said("Link {name}", name=name)
+
+
+def _begun(words: str) -> str:
+    """Return words that begin with a capital."""
+    return words[:1].upper() + words[1:]
 
 
 def phrase(body: Body, names: Mapping[str, str]) -> str:
     """Return what a body is called within a sentence: "the rocker", "the upper link", "link 3"."""
     words = names.get(body.name, body.name)
     if words in _ADJECTIVES:
-        return f"the {words} link"
+        return said("the {adjective} link", adjective=name_said(words))
     noun = words != body.name or (len(words) >= _NOUN and words.islower())
-    return f"the {words}" if noun else f"link {words}"
+    return said("the {name}", name=name_said(words)) if noun else said("link {name}", name=words)
 
 
 def input_symbol(linkage: Linkage) -> str:
@@ -141,7 +149,7 @@ Path = tuple[str | int, ...]
 
 @frozen
 class Quantity:
-    """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
+    """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker", "angular velocity", rad/s.
 
     `computed` takes a Motion (arrays) or a Pose (floats) and works it out, in radians and the scene's unit of
     length: one value an instant, or one in each of `columns`. `unit`, `order` and `divisor` are as in
@@ -151,13 +159,19 @@ class Quantity:
 
     token: str
     symbol: str
-    words: str
+    part: str
+    measure: str
     unit: str
     order: int
     computed: Callable[[Any], Any]
     columns: tuple[str, ...] = ("",)
     path: Path = ()
     divisor: Callable[[Any], Any] | None = None
+
+    @property
+    def words(self) -> str:
+        """What it is of, and what it is: "Rocker: angular velocity"; the latter alone of a whole linkage."""
+        return said("{part}: {measure}", part=self.part, measure=self.measure) if self.part else self.measure
 
     def read(self, motion: Any) -> Any:
         """Return what it is: 0.0 is exactly nothing, `inf` unbounded, `nan` no value, None not known."""
@@ -202,17 +216,17 @@ class Quantity:
 
     def title(self, length_unit: str) -> str:
         """Return what an axis is titled: "Rocker: angular velocity ω₄ (rad/s)"."""
-        return f"{self.words}{self._joint}{self.headed(length_unit)}"
+        return f"{self.words}{self._comma}{self.headed(length_unit)}"
 
     @property
     def named(self) -> str:
         """Its words and its symbol: "Rocker: angular velocity ω₄", "B: x-position, x_{B}"."""
-        return f"{self.words}{self._joint}{self.symbol}"
+        return f"{self.words}{self._comma}{self.symbol}"
 
     @property
-    def _joint(self) -> str:
+    def _comma(self) -> str:
         """What stands between its words and its symbol: a comma after those of a component."""
-        return ", " if self.token.endswith((".x", ".y")) else " "
+        return said_as("list", ", ") if self.token.endswith((".x", ".y")) else " "
 
     def headed(self, length_unit: str) -> str:
         """Return what a column is headed: "ω₄ (rad/s)", without a unit the symbol alone."""
@@ -228,7 +242,7 @@ def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[s
     return _registered(linkage.unsized, tuple(names.items()), _carriers(linkage))
 
 
-@lru_cache(maxsize=16)
+@kept_as_said(16)
 def _registered(
     linkage: Linkage, names: tuple[tuple[str, str], ...], carriers: _Carriers
 ) -> Mapping[str, Quantity]:
@@ -241,7 +255,7 @@ def recorded(linkage: Linkage) -> tuple[Quantity, ...]:
     return _recorded(linkage.unsized, _carriers(linkage))
 
 
-@lru_cache(maxsize=16)
+@kept_as_said(16)
 def _recorded(linkage: Linkage, carriers: _Carriers) -> tuple[Quantity, ...]:
     quantities = _quantities(linkage, NO_NAMES, carriers, still=True)
     return tuple(quantity for quantity in quantities if quantity.path)
@@ -294,12 +308,13 @@ def _quantities(
         yield _of_coriolis(link, slide.point)
     for body in linkage.bodies:
         if body.com is not None:
-            called_ = body.name, f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
+            centre = said("{part}, centre of mass", part=called(body, names))
+            called_ = body.name, f"G{labels[body.name]}", centre
             yield from _of_point(CENTRE, CENTRE_PATH, called_, ("bodies", body.name, "com"))
     for strut in linkage.springs + linkage.dampers:
         words = linkage.strut_words(strut)
         index = words if strut.name in labels else strut.name
-        yield from _of_strut(strut, index, words[:1].upper() + words[1:], every=still)
+        yield from _of_strut(strut, index, _begun(words), every=still)
     for body in linkage.bodies:
         if body.slider is None:
             called_ = body.name, f"P1{labels[body.name]}", called(body, names)
@@ -315,16 +330,17 @@ def _slipping(measure: Measure, link: str, motion: Any) -> Any:
 def _of_slip(link: str, joint: str, label: str, words: str) -> Iterator[Quantity]:
     """Yield how what slides on a moving link slips along it."""
     for one in SLIP:
-        symbol, told = indexed(one.symbol, f"{joint}/{label}"), f"{words}: {one.words} of {joint}"
+        symbol = indexed(one.symbol, f"{joint}/{label}")
+        told = words, said("{measure} of {joint}", measure=said(one.words), joint=joint)
         read, path = partial(_slipping, one, link), ("bodies", link, one.name)
-        yield Quantity(f"{link}.{one.name}", symbol, told, one.unit, one.order, read, path=path)
+        yield Quantity(f"{link}.{one.name}", symbol, *told, one.unit, one.order, read, path=path)
 
 
 def _of_coriolis(link: str, joint: str) -> Quantity:
     """Return the Coriolis acceleration of what slides on a moving link."""
     read, path = partial(_slipping, CORIOLIS, link), ("joints", joint, CORIOLIS.name)
-    symbol, words = indexed(CORIOLIS.symbol, joint), f"{joint}: {CORIOLIS.words}"
-    return Quantity(f"{joint}.coriolis", symbol, words, CORIOLIS.unit, CORIOLIS.order, read, path=path)
+    symbol, words = indexed(CORIOLIS.symbol, joint), (joint, said(CORIOLIS.words))
+    return Quantity(f"{joint}.coriolis", symbol, *words, CORIOLIS.unit, CORIOLIS.order, read, path=path)
 
 
 def _pole(motion: Any, name: str) -> Any:
@@ -336,7 +352,7 @@ def _turning(motion: Any, name: str) -> Any:
     return motion.angular_velocity[name]
 
 
-_POLE = Measure("pole", "pole", "r", "instant centre to the ground", "{}", 0, "", _pole, _turning)
+_POLE = Measure("pole", "pole", "r", to_say("instant centre to the ground"), "{}", 0, "", _pole, _turning)
 
 
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
@@ -345,15 +361,15 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     dyads = dyads_of(linkage)
     if dyads:
         read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
-        yield _whole("transmission_angle", "μ", "Transmission angle", "rad", 0, read)
+        yield _whole("transmission_angle", "μ", ("", said("Transmission angle")), "rad", 0, read)
     for dyad in dyads if len(dyads) > 1 else ():
-        read, words = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
+        read, words = partial(transmission_angle, dyad=dyad), (dyad, said("transmission angle"))
         whole = _whole(f"{dyad}.transmission_angle", indexed("μ", dyad), words, "rad", 0, read)
         yield replace(whole, path=("joints", dyad, "transmission_angle"))
     output = output_body(linkage)
     if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
         read = partial(mechanical_advantage, output=output)
-        whole = _whole("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
+        whole = _whole("mechanical_advantage", "MA", ("", said("Mechanical advantage")), "", 0, read)
         yield replace(whole, divisor=partial(rate_of, body=output))
 
 
@@ -381,38 +397,43 @@ def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) 
         return
     order = force_order(linkage)
     labels = {GROUND: "1", **link_labels(linkage)}
-    words = {body.name: called(body, names) for body in linkage.bodies} | {GROUND: "Ground"}
+    words = {body.name: called(body, names) for body in linkage.bodies} | {GROUND: said("Ground")}
 
     def whose(body: str) -> str:
-        usual = f"Bar {body}" if "–" in body else body[:1].upper() + body[1:]
+        usual = said("Bar {name}", name=body) if "–" in body else _begun(name_said(body))
         return words.get(body, usual)
 
     for joint, bodies in carriers.joints:
         for body in bodies:
             index, read = f"{joint},{labels.get(body, body)}", partial(_in_joint, joint=joint, body=body)
-            told = f"{whose(body)}: ", f"force in {joint}"
+            told = whose(body), said("force in {joint}", joint=joint)
             yield from _pull(f"{body}.{joint}.force", index, told, order, ("reactions", joint, body), read)
     for name in carriers.guides:
-        for kind, symbol, unit in (("force", "N", "N"), ("moment", "M", "N m")):
-            guide = (
-                f"{name}.guide_{kind}",
-                indexed(symbol, labels.get(name, name)),
-                f"{whose(name)}: {kind} of its guide",
-            )
+        for kind, symbol, unit, measure in (
+            ("force", "N", "N", said("force of its guide")),
+            ("moment", "M", "N m", said("moment of its guide")),
+        ):
+            guide = f"{name}.guide_{kind}", indexed(symbol, labels.get(name, name)), whose(name), measure
             read = partial(_in_guide, name=name, kind=kind)
             yield Quantity(*guide, unit, order, read, path=("guides", name, kind))
     for name, toothed in carriers.gears:
         for kind in ("tangential", "radial") if toothed else ():
-            teeth = f"{name}.{kind}_force", f"F_{{g{name}{kind[0]}}}", f"{name}: {kind} force of its teeth"
+            teeth = f"{name}.{kind}_force", f"F_{{g{name}{kind[0]}}}", name, said(_OF_TEETH[kind])
             read = partial(_in_gear, name=name, kind=kind)
             yield Quantity(*teeth, "N", order, read, path=("gears", name, kind))
-        turning = f"{name}.gear_moment", f"M_{{g{name}}}", f"{name}: moment of its gear"
+        turning = f"{name}.gear_moment", f"M_{{g{name}}}", name, said("moment of its gear")
         read = partial(_in_gear, name=name, kind="moment")
         yield Quantity(*turning, "N m", order, read, path=("gears", name, "moment"))
-    shaking = "Ground: ", "shaking force"
+    shaking = said("Ground"), said("shaking force")
     yield from _pull("ground.force", "s", shaking, order, ("ground", "force"), _on_ground)
-    moment = "ground.moment", "M_{s}", "Ground: shaking moment", "N m", order, _moment_on_ground
-    yield Quantity(*moment, path=("ground", "moment"))
+    moment = "ground.moment", "M_{s}", said("Ground"), said("shaking moment"), "N m", order
+    yield Quantity(*moment, _moment_on_ground, path=("ground", "moment"))
+
+
+_OF_TEETH = {
+    "tangential": to_say("tangential force of its teeth"),
+    "radial": to_say("radial force of its teeth"),
+}
 
 
 def force_order(linkage: Linkage) -> int:
@@ -430,10 +451,19 @@ def _pull(
 ) -> Iterator[Quantity]:
     """Yield a force, its size and its two components."""
     whose, what = words
-    yield Quantity(token, f"F_{{{index}}}", f"{whose}{what}", "N", order, lambda motion: size(read(motion)))
+    yield Quantity(token, f"F_{{{index}}}", whose, what, "N", order, lambda motion: size(read(motion)))
     for n, axis in enumerate("xy"):
-        told = f"{token}.{axis}", f"F_{{{index}{axis}}}", f"{whose}{axis} of the {what}", "N", order
-        yield Quantity(*told, _component(read, n), path=(*path, n))
+        along = said("{axis} of the {measure}", axis=axis, measure=what)
+        yield Quantity(
+            f"{token}.{axis}",
+            f"F_{{{index}{axis}}}",
+            whose,
+            along,
+            "N",
+            order,
+            _component(read, n),
+            path=(*path, n),
+        )
 
 
 def _in_joint(motion: Any, joint: str, body: str) -> Any:
@@ -459,26 +489,27 @@ def _in_gear(motion: Any, name: str, kind: str) -> Any:
 def _of_input(linkage: Linkage) -> Iterator[Quantity]:
     """Yield the input's velocity, its cylinder's length, and the torque or force that it delivers."""
     coordinate, actuator = linkage.drive.coordinate, linkage.drive.actuator
-    symbol, words = "ω_{in}" if coordinate.is_angle else "v_{in}", f"Input: {coordinate.velocity}"
+    of_input = said("Input")
+    symbol, words = "ω_{in}" if coordinate.is_angle else "v_{in}", (of_input, said(coordinate.velocity))
     yield _whole(coordinate.rate_token, symbol, words, f"{coordinate.unit}/s", 1, input_rate)
     if (ends := actuator.along) is not None:
 
         def length(motion: Any) -> Any:
             return size(between(motion.position, ends))
 
-        yield _whole("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
+        yield _whole("input.length", "L_{in}", (of_input, said("length of the cylinder")), "{}", 0, length)
     if linkage.forceful:
         order = force_order(linkage)
         name, unit = actuator.effort
         symbol = f"{name[0].upper()}_{{in}}"
-        yield _whole(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)
+        yield _whole(effort_token(linkage), symbol, (of_input, said(name)), unit, order, input_effort)
 
 
 def _whole(
-    token: str, symbol: str, words: str, unit: str, order: int, read: Callable[[Any], Any]
+    token: str, symbol: str, words: tuple[str, str], unit: str, order: int, read: Callable[[Any], Any]
 ) -> Quantity:
     """Return a quantity of the linkage as a whole, which stands in JSON under its own token."""
-    return Quantity(token, symbol, words, unit, order, read, path=tuple(token.split(".")))
+    return Quantity(token, symbol, *words, unit, order, read, path=tuple(token.split(".")))
 
 
 def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
@@ -493,8 +524,7 @@ def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Q
 
 def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> Quantity:
     """Return a measure of one part as a quantity."""
-    token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
-    known = (token, symbol, words, measure.unit, measure.order)
+    known = (f"{part}.{measure.name}", symbol, words, said(measure.words), measure.unit, measure.order)
     divisor = measure.divisor_of(part)
     return Quantity(*known, lambda motion: measure.read(motion, part), path=path, divisor=divisor)
 
@@ -516,21 +546,22 @@ def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterat
     `names` are those of the part, in symbols and in words.
     """
     part, label, called_ = names
-    token, words = f"{part}.{measure.name}", f"{called_}: {measure.words}"
+    token, words = f"{part}.{measure.name}", said(measure.words)
 
     def vector(motion: Any) -> Any:
         return measure.read(motion, part)
 
     divisor = measure.divisor_of(part)
-    whole = (indexed(measure.symbol, label), words, measure.unit, measure.order)
+    whole = (indexed(measure.symbol, label), called_, words, measure.unit, measure.order)
     if measure.order:
         yield Quantity(token, *whole, lambda motion: size(components(vector(motion))))
     else:
         yield Quantity(token, *whole, vector, ("x", "y"), divisor=divisor)
     for n, axis in enumerate("xy"):
         symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
-        along = f"{axis}-{measure.words}" if " " not in measure.words else f"{axis} of the {measure.words}"
-        part_of = f"{token}.{axis}", symbol, f"{called_}: {along}", measure.unit, measure.order
+        one = said("{axis}-{measure}", axis=axis, measure=words)
+        along = one if " " not in measure.words else said("{axis} of the {measure}", axis=axis, measure=words)
+        part_of = f"{token}.{axis}", symbol, called_, along, measure.unit, measure.order
         yield Quantity(*part_of, _component(vector, n), path=(*path, measure.key, n), divisor=divisor)
 
 

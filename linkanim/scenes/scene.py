@@ -18,6 +18,7 @@ from linkanim.bounds import MOST_TURNS_ON
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import shown
+from linkanim.words import cached_as_said
 
 if TYPE_CHECKING:
     import numpy as np
@@ -162,7 +163,7 @@ class Scene:
             return self.goal.info
         return Info(self.mechanism, self.length_unit)
 
-    @cached_property
+    @cached_as_said
     def quantities(self) -> Mapping[str, Quantity]:
         """All quantities by their tokens, such as "rocker.angle"; words call bodies by what they do."""
         from linkanim.mechanics.quantities import register

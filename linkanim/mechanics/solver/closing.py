@@ -94,6 +94,7 @@ from linkanim.mechanics.solver.signed_root import (
     slot_root,
 )
 from linkanim.mechanics.tolerances import BESIDE_AN_END, SMALLEST
+from linkanim.words import to_say
 
 # The signed root of a dyad on moving points that limits the input, or passes change points.
 #
@@ -913,10 +914,11 @@ def slider_name(joint: RRP, assembly: Assembly) -> str:
     """Return slider-crank or slider-rocker, and whether the line runs past the pivot."""
     loop = assembly.loops.get(joint.name)
     if loop is None:
-        return "slider linkage"
+        return to_say("slider linkage")
     eccentric = loop.root.u.least != loop.root.w.least
-    turns = "slider-crank" if assembly.path.full_turn else "slider-rocker"
-    return f"{'offset' if eccentric else 'in-line'} {turns}"
+    if assembly.path.full_turn:
+        return to_say("offset slider-crank") if eccentric else to_say("in-line slider-crank")
+    return to_say("offset slider-rocker") if eccentric else to_say("in-line slider-rocker")
 
 
 def loop_of_slot(joint: RPR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
@@ -954,9 +956,18 @@ def slot_name(joint: RPR, assembly: Assembly) -> str:
     """Return inverted slider-crank, and how its slotted bar, or the cylinder on its rod, moves."""
     loop = assembly.loops.get(joint.name)
     if loop is None or loop.ground is None:
-        return "inverted slider-crank"
-    kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
-    return f"inverted slider-crank, {kind} {'cylinder' if loop.swapped else 'slotted bar'}"
+        return to_say("inverted slider-crank")
+    if loop.swapped:
+        swinging, rotating = (
+            to_say("inverted slider-crank, swinging cylinder"),
+            to_say("inverted slider-crank, rotating cylinder"),
+        )
+    else:
+        swinging, rotating = (
+            to_say("inverted slider-crank, swinging slotted bar"),
+            to_say("inverted slider-crank, rotating slotted bar"),
+        )
+    return rotating if loop.ground.length < loop.crank.length else swinging
 
 
 def _turning_kinds(turn: Slope, root: SignedRoot, offset: float) -> Slope:
@@ -1004,7 +1015,7 @@ def close_yoke(joint: RPP, walk: Walk) -> None:
 
 def yoke_name(joint: RPP, assembly: Assembly) -> str:
     """Return Scotch yoke, or that its slot is not square to its line."""
-    return "Scotch yoke" if unit(joint.slot)[0] == 0 else "Scotch yoke, oblique slot"
+    return to_say("Scotch yoke") if unit(joint.slot)[0] == 0 else to_say("Scotch yoke, oblique slot")
 
 
 def place_group(point: GroupPoint, walk: Walk) -> None:
