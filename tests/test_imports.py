@@ -340,7 +340,7 @@ def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
     assert "linkanim.picture.surface" in loaded
     assert "picture.polygons" not in loaded
     assert not any(
-        name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "player.beside")
+        name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "player.background")
     )
 
 

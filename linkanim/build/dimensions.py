@@ -117,8 +117,8 @@ def next_option(building: Building) -> Building:
     if row is None or not row.options:
         return building
     follows = dict(zip(("", *row.options), (*row.options, _NOTHING[0]), strict=True))
-    place, taken = building.row, take(replace(building, typed=follows.get(row.words, row.options[0])))
-    return replace(choose_number(replace(taken, row=place), 0), is_refusal=taken.is_refusal)
+    place, after = building.row, accept(replace(building, typed=follows.get(row.words, row.options[0])))
+    return replace(choose_number(replace(after, row=place), 0), is_refusal=after.is_refusal)
 
 
 def typed_length(building: Building, now: float) -> float:
@@ -133,7 +133,7 @@ def _chosen_row(building: Building) -> PropertyRow | None:
     return rows[building.row % len(rows)] if rows else None
 
 
-def take(building: Building) -> Building:
+def accept(building: Building) -> Building:
     """Return the building with the typed text in the chosen row; or the same one, and why it is refused.
 
     A number without a unit is in the draft's unit, in degrees, or in the unit of the old value. With a unit
@@ -152,7 +152,7 @@ def take(building: Building) -> Building:
         elif key[0] == "bodies" and building.typed.strip() in _NOTHING:
             after = changed(building, _without(draft, key), building.chosen)
         else:
-            after = _taken(building, key, one)
+            after = _accepted(building, key, one)
     except BadInput as error:
         return replace(building, sentence=str(error), is_refusal=True)
     if building.made.scene and after.made.scene is None:
@@ -177,7 +177,7 @@ def _row_for(building: Building, fields: list[tuple[Key, Field]]) -> int:
     return building.row % len(fields)
 
 
-def _taken(building: Building, key: Key, one: Field) -> Building:
+def _accepted(building: Building, key: Key, one: Field) -> Building:
     """Return the building with the typed text at a key; BadInput where it is not allowed there."""
     assert one.plain
     draft, text = _with_body(building, key), building.typed.strip()

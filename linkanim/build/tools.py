@@ -32,7 +32,7 @@ TOOLS = (
     Tool("trace", "trace of the chosen joint", "Shift+T", "trace_on"),
     Tool("drive", "drive of the chosen crank or slider", "Shift+D", "drive_by"),
     Tool("delete", "remove", "Del", "remove"),
-    Tool("undo", "undo", "Ctrl+Z", "unbuild"),
-    Tool("redo", "redo", "Ctrl+Y", "rebuild"),
+    Tool("undo", "undo", "Ctrl+Z", "undo_sheet"),
+    Tool("redo", "redo", "Ctrl+Y", "redo_sheet"),
 )
 """The tools of the bar, in their order."""

@@ -113,7 +113,7 @@ class Annotations:
 
     def _end(self, plot: Plot, curve: Curve) -> Iterator[_Words]:
         """Yield the name of a curve, to stand where the curve is furthest to the right."""
-        places = plot.place(curve.x, np.where(np.isfinite(curve.values), curve.values, np.nan))
+        places = plot.pixels(curve.x, np.where(np.isfinite(curve.values), curve.values, np.nan))
         known = places[np.isfinite(places)]
         if known.size:
             at, name = complex(known[known.real.argmax()]), self.curves.name(curve)
@@ -122,7 +122,7 @@ class Annotations:
     def _peaks(self, plot: Plot, curve: Curve) -> Iterator[_Words]:
         """Yield a curve's greatest and least value, in words."""
         for n, peak in enumerate(extremes(self.curves.scene, curve)):
-            at, text = complex(plot.place(peak.x, peak.value)), _peak_words(plot, peak, self.curves, curve)
+            at, text = complex(plot.pixels(peak.x, peak.value)), _peak_words(plot, peak, self.curves, curve)
             yield _Words(curve, at, text, _about(at, text, self.pen, high=n == 0), dotted=True)
 
     def _beside(self, area: Rect, ends: list[_Words]) -> Iterator[Item]:
@@ -409,7 +409,7 @@ class Page(DrawnPage):
         """Return where measured points lie in a plot, if any do."""
         if not self.measured or self.measured.curve not in side:
             return ()
-        return tuple(complex(plot.place(*point)) for point in self.measured.points)
+        return tuple(complex(plot.pixels(*point)) for point in self.measured.points)
 
     def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
         pen, top = self.pen, area.y - (_LINE - _LIFT) * self.pen.small
@@ -448,7 +448,7 @@ def _range_of(side: list[Curve]) -> tuple[float, float]:
 def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:
     """Yield the line of zero where it lies in the plot."""
     if plot.y.low < 0 < plot.y.high:
-        foot = complex(plot.place(plot.x.low, 0.0))
+        foot = complex(plot.pixels(plot.x.low, 0.0))
         yield Layer(pen.theme.dim, segments(foot, foot + plot.area.width, 0.6 * pen.line))
 
 

@@ -165,15 +165,15 @@ class ErrorChart(DrawnPage):
         )
         yield Caption(said, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
         yield x_title(plot, "x", pen)
-        foot = complex(plot.place(function.first, 0.0))
+        foot = complex(plot.pixels(function.first, 0.0))
         yield Layer(theme.dim, segments(foot, foot + area.width, 0.6 * pen.line))
         if self._level:
             for height in (self.shown.error, -self.shown.error):
-                ends = plot.place(np.array([function.first, function.last]), np.full(2, height / unit))
+                ends = plot.pixels(np.array([function.first, function.last]), np.full(2, height / unit))
                 yield line_layer([ends], theme.acceleration, pen.line, _DASHES)
         yield curve_layer(plot, x, errors / unit, theme.velocity, 1.2 * pen.line)
         fine = replace(pen, line=0.7 * pen.line)
-        yield from dot(theme.ink, fine).at([complex(plot.place(at, 0.0)) for at in self.shown.points])
+        yield from dot(theme.ink, fine).at([complex(plot.pixels(at, 0.0)) for at in self.shown.points])
         yield from self._extremes(plot, unit)
 
     @property
@@ -185,7 +185,7 @@ class ErrorChart(DrawnPage):
     def _extremes(self, plot: Plot, unit: float) -> Iterator[Item]:
         pen = self.pen
         for x, error in self.shown.extremes:
-            at = complex(plot.place(x, error / unit))
+            at = complex(plot.pixels(x, error / unit))
             yield from dot(pen.theme.velocity, pen).at([at])
             words = rounded(error / unit, 3)
             half = 0.5 * pen.type.width(words, pen.small)

@@ -118,7 +118,7 @@ class PolarPage(DrawnPage):
         yield x_title(plot, across, pen)
         yield Caption(up, (plot.area.x, plot.area.y - 1.4 * pen.small), pen.small, theme.ink)
         if plot.x.low < 0.0 < plot.x.high:
-            foot = complex(plot.place(0.0, plot.y.low))
+            foot = complex(plot.pixels(0.0, plot.y.low))
             yield Layer(theme.dim, segments([foot], [foot - 1j * plot.area.height], 0.8 * pen.line))
         for n, head in enumerate(self.heads):
             yield from self._curve(plot, head, n)
@@ -163,14 +163,14 @@ class PolarPage(DrawnPage):
     def _curve(self, plot: Plot, head: _Head, n: int) -> Iterator[Item]:
         """Yield a curve, dots along it with angles, and an arrow to where the vector is largest."""
         pen, colour = self.pen, self._colour(n)
-        places = plot.place(head.x, head.y)
+        places = plot.pixels(head.x, head.y)
         inside = np.isfinite(head.x) & np.isfinite(head.y) & _within(plot, head)
         runs = np.split(places, np.flatnonzero(~inside))
         lines = [run[1:] if k else run for k, run in enumerate(runs)]
         yield line_layer([line for line in lines if len(line) > 1], colour, 1.2 * pen.line, _DASHES[n % 4])
         at, _ = self._largest(head)
         if at is not None and n == 0:
-            origin, tip = complex(plot.place(0.0, 0.0)), complex(places[at])
+            origin, tip = complex(plot.pixels(0.0, 0.0)), complex(places[at])
             yield Layer(colour, arrows([origin], [tip - origin], pen.line))
         marks = [k for k in range(0, len(places) - 1, _EVERY) if inside[k]]
         yield from dot(colour, replace(pen, line=0.6 * pen.line)).at([complex(places[k]) for k in marks])

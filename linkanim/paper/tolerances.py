@@ -88,5 +88,5 @@ class ToleranceChart(DrawnPage):
         yield curve_layer(plot, phases, bound, theme.velocity, 1.6 * pen.line)
         yield from legend(area.x, x_title(plot, "", pen).at[1], strokes, pen)
         where = math.degrees(off.worst_phase or 0.0)
-        drawn = [complex(plot.place(where, self._scale * one)) for one in (off.likely, off.greatest)]
+        drawn = [complex(plot.pixels(where, self._scale * one)) for one in (off.likely, off.greatest)]
         yield from dot(theme.ink, pen).at([one for one in drawn if math.isfinite(one.imag)])

@@ -160,7 +160,7 @@ def _links(found: Solution, picture: Picture) -> Iterator[Group]:
 
 
 def _pixel(picture: Picture, at: complex) -> complex:
-    return picture.view.place((at.real, at.imag))
+    return picture.view.pixel((at.real, at.imag))
 
 
 def _drawn(found: Solution, picture: Picture) -> Iterator[Group]:

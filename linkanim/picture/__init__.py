@@ -34,7 +34,7 @@ From the ground up; a module imports from those before it only:
     fit           how far what is drawn extends, and the view that fits it into a room
     composition   slots, view and names of a picture
     overlay       what lies over the picture, as data
-    told          what is under the mouse, in its own words
+    hover         what is under the mouse, in its own words
     board         what every panel is drawn on
     game_panel    what a game shows
     tools         the bar of tools

@@ -137,8 +137,8 @@ class Way(NamedTuple):
         """Return the middles of the name of an arrow at some moments (n,)."""
         way = units(reaches) * self.turn
         far = self.off * size[1] + (np.abs(way.real) * size[0] + np.abs(way.imag) * size[1]) / 2
-        found: Loop = feet + self.share * reaches + far * way
-        return found
+        middles: Loop = feet + self.share * reaches + far * way
+        return middles
 
 
 WAYS = (

@@ -25,7 +25,7 @@ from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
 from linkanim.picture.items import SHEET, Caption, Group, Halo
 from linkanim.picture.layout import HEAD_STEP, Gauge, Layout, gauge, tool_cells
-from linkanim.picture.marks import beside, measure
+from linkanim.picture.marks import label_beside, measure
 from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, Rubber, Snap
 from linkanim.picture.photograph import Photograph
@@ -89,14 +89,14 @@ def drawn_line(setting: DrawSetting, pen: Sequence[complex], curve: DrawnCurve |
     if not points.size:
         at = layout.size[0] / 2, layout.size[1] / 2 - size
         return Group("pencil", (), [Caption(HINT, at, size, theme.dim, "centre")])
-    line = stroke(_placed(setting.view, points), max(2.6 * layout.unit, 1.6))
+    line = stroke(_in_pixels(setting.view, points), max(2.6 * layout.unit, 1.6))
     return Group("pencil", [Layer(theme.ink, line)])
 
 
 def dashed(setting: DrawSetting, curve: DrawnCurve) -> Group:
     """Return the stroke in dashes, wider than a trace."""
     width, theme = 2.6 * setting.gauge.line, setting.theme
-    line = _placed(setting.view, curve.polyline)
+    line = _in_pixels(setting.view, curve.polyline)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
     count = max(ceil(along[-1] / ((_DASH + _GAP) * width)), 1)
     ends = np.arange(count) * (along[-1] / count) + np.array([[0.0], [_DASH * width]])
@@ -110,18 +110,18 @@ def handles(
 ) -> Iterator[Layer]:
     """Yield the marked points of a stroke, the one that is held, and rings about pivots that are held."""
     _, view, gauge, theme = setting.known
-    points, reach = _placed(view, curve.points), 0.55 * gauge.bar
+    points, reach = _in_pixels(view, curve.points), 0.55 * gauge.bar
     marked = points[:: max(len(points) // _HANDLES, 1)]
     yield Layer(theme.ink, [at + disc(reach) for at in marked])
     yield Layer(theme.background, [at + disc(0.6 * reach) for at in marked])
     if held is not None:
         yield Layer(theme.velocity, [points[held] + disc(1.5 * reach)])
     for pin in pins:
-        ring = view.place(pin) + disc(2.6 * gauge.bar)
+        ring = view.pixel(pin) + disc(2.6 * gauge.bar)
         yield Layer(theme.velocity, stroke(ring, 1.6 * gauge.line, closed=True))
 
 
-def _placed(view: View, points: Loop) -> Loop:
+def _in_pixels(view: View, points: Loop) -> Loop:
     return view.x + view.scale * points.real + 1j * (view.y - view.scale * points.imag)
 
 
@@ -136,7 +136,7 @@ _WHEELS = 0.55
 
 def draft_gauge(layout: Layout, view: View, draft: DraftShown) -> Gauge:
     """Return how thick a draft is drawn: like the linkage that it becomes."""
-    ends = [[*map(view.place, one.places[:2])] for one in draft.shapes if one.kind == "bars"]
+    ends = [[*map(view.pixel, one.places[:2])] for one in draft.shapes if one.kind == "bars"]
     spans = (abs(end - begin) for begin, end in ends)
     return gauge(layout.unit, min(spans, default=200 * layout.unit))
 
@@ -160,22 +160,22 @@ class DraftDrawing:
     def _of(self, *kinds: str) -> list[Shape]:
         return [one for one in self._draft.shapes if one.kind in kinds]
 
-    def _placed(self, places: tuple[Point, ...]) -> list[complex]:
-        return [self._view.place(point) for point in places]
+    def _in_pixels(self, places: tuple[Point, ...]) -> list[complex]:
+        return [self._view.pixel(point) for point in places]
 
     def _guide(self, guide: Shape) -> Iterator[Layer]:
         """Yield a line through a guide's two places, extended on both sides of the slider on it."""
-        start, beside, *blocks = self._placed(guide.places)
+        start, beside, *blocks = self._in_pixels(guide.places)
         along, reach = unit(beside - start), _GUIDE * self._gauge.bar
         places = [((at - start) * along.conjugate()).real for at in blocks] or [0.0]
         ends = start + along * (min(places) - reach), start + along * (max(places) + reach)
         yield Layer(self._theme.ground, [*hatched(*ends, self._gauge, 1)])
 
     def _foot(self, pin: Shape) -> Iterator[Layer]:
-        yield from pedestal(self._view.place(pin.places[0]), 1j, self._gauge, self._theme)
+        yield from pedestal(self._view.pixel(pin.places[0]), 1j, self._gauge, self._theme)
 
     def _wheels(self, gear: Shape) -> Iterator[Layer]:
-        one, other, touching = self._placed(gear.places)
+        one, other, touching = self._in_pixels(gear.places)
         for middle in (one, other):
             ring = middle + disc(max(abs(touching - middle), 1.0))
             yield Layer(self._theme.gear, [ring], _WHEELS)
@@ -190,20 +190,20 @@ class DraftDrawing:
             yield from self._block(block)
 
     def _body(self, bar: Shape, colour: int) -> list[Layer]:
-        points = self._placed(bar.places)
+        points = self._in_pixels(bar.places)
         colours = self._theme.outline, self._theme.bodies[colour % len(self._theme.bodies)]
         draw = glazed if len(hull(points)) > 2 else lined
         return draw(points, self._gauge.bar, self._gauge.outline, colours)
 
     def _block(self, block: Shape) -> Iterator[Layer]:
         """Yield a slider's block, along the line from its first place to its second."""
-        at, *beside = self._placed(block.places)
+        at, *beside = self._in_pixels(block.places)
         turn = unit(beside[0] - at) if beside else 1 + 0j
         share = 1.0 if block.kind == "sliders" else 0.62
         yield from (layer.placed(at) for layer in block_layers(self._gauge, self._theme, turn, share))
 
     def _strut(self, strut: Shape) -> list[Layer]:
-        begin, end = self._placed(strut.places[:2])
+        begin, end = self._in_pixels(strut.places[:2])
         ends, span, gauge_ = ("begin", "end"), abs(end - begin), self._gauge
         drawn: Coil | Damping
         if strut.kind == "springs":
@@ -214,19 +214,19 @@ class DraftDrawing:
 
     def _pins(self) -> Iterator[Layer]:
         joints = tuple(one.places[0] for one in self._of("pins", "joints"))
-        yield from pin_stamp(self._gauge, self._theme).at(self._placed(joints))
-        for n, at in enumerate(self._placed(self._draft.traced)):
+        yield from pin_stamp(self._gauge, self._theme).at(self._in_pixels(joints))
+        for n, at in enumerate(self._in_pixels(self._draft.traced)):
             colour = self._theme.traces[n % len(self._theme.traces)]
             yield from mark_stamp(colour, self._gauge, self._theme).at([at])
         if self._draft.crank:
-            pivot, pin = self._placed(self._draft.crank)
+            pivot, pin = self._in_pixels(self._draft.crank)
             yield from turning_arrow(pivot, pin, self._gauge, self._theme)
 
     def names(self, size: int) -> Iterator[Caption]:
         """Yield the joints' names at a size, each where the bars at its joint leave most room."""
         halo = Halo(self._theme.background, 0.12 * size)
         for joint in self._of("pins", "joints"):
-            here, aside = self._placed(joint.places)[0], self._aside(joint)
+            here, aside = self._in_pixels(joint.places)[0], self._aside(joint)
             at = here + (1.5 * self._gauge.bar + 0.75 * size) * aside
             place = at.real, at.imag - 0.62 * size
             yield Caption(subscripted(joint.label), place, size, self._theme.ink, "centre", halo=halo)
@@ -234,8 +234,8 @@ class DraftDrawing:
     def _aside(self, joint: Shape) -> complex:
         """Return the direction farthest from those of a joint's bars, and from a pin's foot."""
         here = joint.places[0]
-        bars = [self._placed(bar.places) for bar in self._of("bars") if here in bar.places]
-        at = self._placed((here,))[0]
+        bars = [self._in_pixels(bar.places) for bar in self._of("bars") if here in bar.places]
+        at = self._in_pixels((here,))[0]
         busy = [unit(place - at) for places in bars for place in places if abs(place - at) > 1e-9]
         busy += [1j] if joint.kind == "pins" else []
         return max(_ASIDE, key=lambda way: -max(((way * one.conjugate()).real for one in busy), default=-1.0))
@@ -248,7 +248,7 @@ _ASIDE = tuple(cmath.rect(1.0, n * math.pi / 4) for n in (-1, 0, -2, -3, 1, 4, 3
 
 def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
     """Yield a light on a shape: round its place, or along the line from its first place to its second."""
-    places = [view.place(point) for point in shape.places[:2]]
+    places = [view.pixel(point) for point in shape.places[:2]]
     if shape.kind == "guides":
         along = 300 * reach * unit(places[1] - places[0])
         yield from segments(places[0] - along, places[0] + along, 0.5 * reach)
@@ -333,16 +333,16 @@ def hand(shown: BuildShown, setting: DrawSetting, names: Sequence[Caption] = ())
         yield Group("snap", [*_snap(shown.snap, setting)], over=True)
     for name, at in (("anchor", shown.anchor), ("cursor", shown.cursor)):
         if at:
-            yield Group(name, [_crosshair(setting.view.place(at), setting)], over=True)
+            yield Group(name, [_crosshair(setting.view.pixel(at), setting)], over=True)
     if shown.hand and not shown.tools:
-        yield Group("hand", [*_pointer(setting.view.place(shown.hand), setting)], over=True)
+        yield Group("hand", [*_pointer(setting.view.pixel(shown.hand), setting)], over=True)
     cells = tool_cells(setting.layout) if shown.tools else ()
     yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, cells=cells)
 
 
 def _dots(dots: Sequence[Point], setting: DrawSetting) -> Iterator[Layer]:
     """Yield the points of bodies as dots."""
-    places, reach = [*map(setting.view.place, dots)], 0.55 * setting.gauge.bar
+    places, reach = [*map(setting.view.pixel, dots)], 0.55 * setting.gauge.bar
     yield Layer(setting.theme.outline, [at + disc(reach) for at in places])
     yield Layer(setting.theme.background, [at + disc(0.6 * reach) for at in places])
 
@@ -367,7 +367,7 @@ def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
         return
     loops = [*lit(shown.chosen, setting.view, 1.5 * setting.gauge.bar)]
     yield Group("chosen", [Layer(ORANGE, loops, _LIT)], over=True)
-    ends = [setting.view.place(point) for point in shown.chosen.places[:2]]
+    ends = [setting.view.pixel(point) for point in shown.chosen.places[:2]]
     if shown.number and len(ends) > 1 and shown.chosen.kind not in ("pins", "joints"):
         if shown.chosen.kind == "guides":
             ends = [ends[0] - 30 * setting.layout.unit, ends[0] + 30 * setting.layout.unit]
@@ -375,13 +375,13 @@ def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
             words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)
             yield from measure(setting, ends[0], ends[1], words)
         else:
-            yield beside(setting, ends[0], ends[1], shown.number)
+            yield label_beside(setting, ends[0], ends[1], shown.number)
 
 
 def _rubber(rubber: Rubber, setting: DrawSetting) -> Iterator[Group]:
     """Yield what the hand draws, and its measures beside it."""
     view = setting.view
-    begin, end = view.place(rubber.begin), view.place(rubber.end)
+    begin, end = view.pixel(rubber.begin), view.pixel(rubber.end)
     yield Group("rubber", [*_drawn(rubber, begin, end, setting)], over=True)
     if rubber.words:
         words = DimensionLine(_ALONG, 0, 1, rubber.words, chosen=False)
@@ -403,9 +403,9 @@ def _drawn(rubber: Rubber, begin: complex, end: complex, setting: DrawSetting) -
 def _snap(snap: Snap, setting: DrawSetting) -> Iterator[Layer]:
     """Yield the mark of what is under the hand: a ring, the line lit."""
     view, gauge, theme = setting.view, setting.gauge, setting.theme
-    at = view.place(snap.at)
+    at = view.pixel(snap.at)
     if snap.ends:
-        begin, end = map(view.place, snap.ends)
+        begin, end = map(view.pixel, snap.ends)
         yield Layer(ORANGE, segments(begin, end, 2.4 * gauge.bar), _LIT)
     yield Layer(theme.velocity, stroke(at + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True))
 

@@ -69,12 +69,12 @@ class CentrePairs:
         if self.all_shown:
             return tuple(NamedPair(pair, label_of(*pair)) for pair in combinations(links, 2))
         ground = (("1", other) for other in order[1:])
-        found = {pair for pair in ground if touch(self.figure.linkage, links[pair[0]], links[pair[1]])}
+        known = {pair for pair in ground if touch(self.figure.linkage, links[pair[0]], links[pair[1]])}
         for step in self.steps:
             one, other = step.pair
             on_lines = ((one, third) for third in step.by), ((third, other) for third in step.by)
-            found |= {step.pair, *(_in_order(pair, order) for pairs in on_lines for pair in pairs)}
-        shown = sorted(found, key=lambda pair: (order.index(pair[0]), order.index(pair[1])))
+            known |= {step.pair, *(_in_order(pair, order) for pairs in on_lines for pair in pairs)}
+        shown = sorted(known, key=lambda pair: (order.index(pair[0]), order.index(pair[1])))
         return tuple(NamedPair(pair, label_of(*pair)) for pair in shown)
 
     @property
@@ -90,18 +90,18 @@ class CentrePairs:
     @cached_property
     def at_joints(self) -> dict[str, tuple[str, ...]]:
         """The names of the centres that always lie in a joint, by the joint's name."""
-        found: dict[str, tuple[str, ...]] = {}
+        labels: dict[str, tuple[str, ...]] = {}
         for (one, other), label in self.pairs:
             links = self.figure.by_number
             if joint := joint_between(self.figure.linkage, links[one], links[other]):
-                found[joint] = (*found.get(joint, ()), label)
-        return found
+                labels[joint] = (*labels.get(joint, ()), label)
+        return labels
 
     def of(self, pose: Pose) -> dict[tuple[str, str], Centre]:
         """Return the centres of a pose by their pairs of links, for pairs that move against each other."""
         links = self.figure.by_number
         known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
-        return {pair: found for pair, found in known.items() if found}
+        return {pair: known_centre for pair, known_centre in known.items() if known_centre}
 
     def paths(self, motion: Motion, step: int) -> dict[str, Loop]:
         """Return where the centres are at every `step`-th phase of a motion, by name; NaN for nowhere."""
@@ -115,7 +115,7 @@ class CentrePairs:
         That is up to `far` of its longer side from its middle, across and along: those that a picture of the
         rectangle includes.
         """
-        places = [found.place for found in self.of(pose).values() if found.place is not None]
+        places = [centre.place for centre in self.of(pose).values() if centre.place is not None]
         return _near(np.array(places, np.complex128), box, far)
 
     def passed(self, box: Box, step: int) -> tuple[complex, ...]:
@@ -175,15 +175,15 @@ class Centres:
 
     def layers(self, pose: Pose) -> Iterator[Layer]:
         """Yield Kennedy's lines, crosses at visible centres outside joints, arrows to invisible ones."""
-        found = self.known.of(pose)
+        centres = self.known.of(pose)
         gauge, theme = self.setting.gauge, self.setting.theme
-        lines = [line for step in self.known.steps for line in self._lines(step, found)]
+        lines = [line for step in self.known.steps for line in self._lines(step, centres)]
         if lines:
             faint = mixed(theme.warning, theme.background, _FAINT)
             width = 0.8 * gauge.line
             yield Layer(faint, [loop for ends in lines for loop in dashes(*ends, 9 * width, width)])
         reach, marks, width = CROSS * gauge.bar, list[Loop](), 1.4 * gauge.line
-        for seen in self._seen(found):
+        for seen in self._seen(centres):
             if seen.direction:
                 marks += arrows([seen.at - self.arrow * seen.direction], [self.arrow * seen.direction], width)
             elif not seen.jointed:
@@ -200,15 +200,15 @@ class Centres:
         """Yield the visible centres, then the directions of the others."""
         return self._seen(self.known.of(pose))
 
-    def _seen(self, found: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
+    def _seen(self, centres: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
         view, room, (named, pin) = self.setting.view, self.setting.layout.stage, self._pin
         inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()
         foot, unit_ = room.inset(1).nearest(pin), self.setting.figure.scene.length_unit
         jointed = {label for labels in self.known.at_joints.values() for label in labels}
         for pair, label in self.known.pairs:
-            if pair not in found:
+            if pair not in centres:
                 continue
-            place, direction = found[pair]
+            place, direction = centres[pair]
             if place is None:
                 direction = direction.conjugate()
                 if (-direction.imag, direction.real) <= (1e-9, 0.0):  # a direction points up, or to the right
@@ -216,7 +216,7 @@ class Centres:
                 at = foot + inner.ahead(foot, direction) * direction
                 far.append(Seen(label, at, direction, words=f"{label}: at ∞"))
                 continue
-            at = view.place((place.real, place.imag))
+            at = view.pixel((place.real, place.imag))
             if room.holds(at.real, at.imag):
                 yield Seen(label, at, jointed=label in jointed)
             elif label not in jointed:
@@ -230,39 +230,39 @@ class Centres:
         """Return the pixels of centres outside joints at every `step`-th phase; NaN where one is not seen."""
         view, room = self.setting.view, self.setting.layout.stage
         jointed = {label for labels in self.known.at_joints.values() for label in labels}
-        found = {}
+        crosses = {}
         for label, path in self.known.paths(motion, step).items():
-            at = view.place((0.0, 0.0)) + view.scale * path.conj()
+            at = view.pixel((0.0, 0.0)) + view.scale * path.conj()
             seen = (
                 (at.real >= room.x) & (at.real <= room.right) & (at.imag >= room.y) & (at.imag <= room.bottom)
             )
             if label not in jointed and seen.any():
-                found[label] = np.where(seen, at, complex(np.nan))
-        return found
+                crosses[label] = np.where(seen, at, complex(np.nan))
+        return crosses
 
     @property
     def _pin(self) -> tuple[str, complex]:
         """The name of the place from which distances to invisible centres are given, and its pixel."""
         figure, view = self.setting.figure, self.setting.view
         if not figure.fixed:
-            return "the origin", view.place((0.0, 0.0))
+            return "the origin", view.pixel((0.0, 0.0))
         return subscripted(figure.fixed[0]), figure.pixel(figure.fixed[0], view)
 
     def _lines(
-        self, step: KennedyStep, found: dict[tuple[str, str], Centre]
+        self, step: KennedyStep, centres: dict[tuple[str, str], Centre]
     ) -> Iterator[tuple[complex, complex]]:
         """Yield the visible parts of the lines on which a centre lies, one for each third link."""
         for third in step.by:
             far = _BEYOND * max(self.setting.layout.size) / self.setting.view.scale
-            if ends := kennedy_line(step.pair, third, found, far):
-                one, other = (self.setting.view.place((end.real, end.imag)) for end in ends)
+            if ends := kennedy_line(step.pair, third, centres, far):
+                one, other = (self.setting.view.pixel((end.real, end.imag)) for end in ends)
                 if seen := self.setting.layout.stage.crossed(one, other):
                     yield seen
 
     def fixed(self) -> Layer:
         """Return the curve on the ground."""
         _, view, _, theme = self.setting.known
-        return self._stroked(view.place((0.0, 0.0)) + view.scale * self._curves[0].conj(), theme.warning)
+        return self._stroked(view.pixel((0.0, 0.0)) + view.scale * self._curves[0].conj(), theme.warning)
 
     def moving(self, places: Places) -> Layer:
         """Return the curve that moves with the coupler and rolls on the fixed one."""
@@ -305,14 +305,14 @@ def label_of(one: str, other: str) -> str:
 
 
 def kennedy_line(
-    pair: tuple[str, str], third: str, found: dict[tuple[str, str], Centre], reach: float
+    pair: tuple[str, str], third: str, known: dict[tuple[str, str], Centre], reach: float
 ) -> tuple[complex, complex] | None:
     """Return the ends of the line through the centres that two links have with a third, and their own.
 
     Towards a centre that is infinitely far it runs `reach`; None where it has no direction.
     """
     one, other = pair
-    centres = [found.get(key) or found.get(key[::-1]) for key in ((one, third), (third, other), (one, other))]
+    centres = [known.get(key) or known.get(key[::-1]) for key in ((one, third), (third, other), (one, other))]
     places = [each.place for each in centres if each and each.place is not None]
     directions = [each.direction for each in centres if each and each.place is None]
     if not places or len(places) + len(directions) < len(centres):

@@ -64,7 +64,7 @@ class Plot:
     x: Axis
     y: Axis
 
-    def place(self, x: ArrayLike, y: ArrayLike) -> Loop:
+    def pixels(self, x: ArrayLike, y: ArrayLike) -> Loop:
         """Return pixels for values; values beyond the vertical axis are put at its edge, NaN stays NaN."""
         across, up = self.x.share(x), np.minimum(np.maximum(self.y.share(y), -0.0), 1.0)
         pixels: Loop = (self.area.x + across * self.area.width) + 1j * (
@@ -112,12 +112,12 @@ def room_for_ticks(y: Axis, pen: Pen) -> float:
 def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
     """Yield grid lines and tick labels."""
     area, theme = plot.area, pen.theme
-    columns = [complex(plot.place(value, plot.y.low)) for value, _ in plot.x.ticks]
-    rows = [complex(plot.place(plot.x.low, value)) for value, _ in plot.y.ticks]
+    columns = [complex(plot.pixels(value, plot.y.low)) for value, _ in plot.x.ticks]
+    rows = [complex(plot.pixels(plot.x.low, value)) for value, _ in plot.y.ticks]
     grid = [*_lines(np.array(columns), -1j * area.height, pen), *_lines(np.array(rows), area.width, pen)]
     yield Layer(theme.rule, grid)
     if plot.y.low < 0.0 < plot.y.high:
-        zero = complex(plot.place(plot.x.low, 0.0))
+        zero = complex(plot.pixels(plot.x.low, 0.0))
         yield Layer(theme.dim, segments([zero], [zero + area.width], _ZERO * pen.line))
     for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
         at = (foot.real, area.bottom + 0.4 * pen.small)
@@ -129,7 +129,7 @@ def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
 
 def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
     """Yield the ticks of a second vertical axis, at the right."""
-    feet = plot.place(plot.x.high, [value for value, _ in plot.y.ticks])
+    feet = plot.pixels(plot.x.high, [value for value, _ in plot.y.ticks])
     yield Layer(pen.theme.dim, _lines(feet - 0.3 * pen.small, 0.3 * pen.small, pen))
     for y, label in _levels(plot, pen):
         at = (plot.area.right + 0.4 * pen.small, y - 0.5 * pen.small)
@@ -140,7 +140,7 @@ def _levels(plot: Plot, pen: Pen) -> Iterator[tuple[float, str]]:
     """Yield how far down the ticks of a vertical axis lie, and their labels where there is room."""
     below = np.inf
     for value, label in plot.y.ticks:
-        y = complex(plot.place(plot.x.low, value)).imag
+        y = complex(plot.pixels(plot.x.low, value)).imag
         if y <= below - pen.small:
             below = y
             yield y, label
@@ -158,7 +158,7 @@ def marked(
     """Yield a dashed line at each mark, with its label at the end further from the curve."""
     area = plot.area
     for (x, label), value in zip(marks, values, strict=True):
-        foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
+        foot, wide = complex(plot.pixels(x, plot.y.low)), pen.type.width(label, pen.small)
         runs = dashed(np.array([foot, foot - 1j * area.height]), np.full(2, 3 * pen.line))
         line = [loop for run in runs for loop in segments(run[0], run[-1], 0.7 * pen.line)]
         yield Layer(pen.theme.dim, line)
@@ -200,14 +200,14 @@ def _with_crossings(path: Loop, level: float) -> Loop:
     at = np.flatnonzero(above[:-1] * above[1:] < 0)
     part = above[at] / (above[at] - above[at + 1])
     crossings = path[at].real + part * (path[at + 1].real - path[at].real) + 1j * level
-    found: Loop = np.insert(path, at + 1, crossings)
-    return found
+    longer: Loop = np.insert(path, at + 1, crossings)
+    return longer
 
 
 def asymptotes(plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, pen: Pen) -> Iterator[Layer]:
     """Yield a thin dashed line from edge to edge at each place where a curve goes to infinity."""
     for place in unbounded_places(x, y).tolist():
-        foot = complex(plot.place(place, plot.y.low))
+        foot = complex(plot.pixels(place, plot.y.low))
         run = np.array([foot, foot - 1j * plot.area.height])
         yield line_layer([run], colour, _ASYMPTOTE * pen.line, _ASYMPTOTE_DASHES)
 
@@ -288,8 +288,8 @@ class ChartPanel:
     @cached_property
     def series(self) -> Series:
         """The quantity over one true period."""
-        found = series_of(self.figure.scene, self.quantity, self._cycle)
-        return broken(found, self.quantity, self.figure.cycle)
+        series = series_of(self.figure.scene, self.quantity, self._cycle)
+        return broken(series, self.quantity, self.figure.cycle)
 
     @cached_property
     def _cycle(self) -> Motion:
@@ -371,16 +371,16 @@ class ChartPanel:
 
     def values_at(self, pose: Pose) -> Floats:
         """Return the pose's own values; an angle is given in the turn of the curve there."""
-        found: Floats = np.atleast_1d(np.asarray(self.quantity.shown(pose), float))
+        shown: Floats = np.atleast_1d(np.asarray(self.quantity.shown(pose), float))
         if self.series.unit != "°":
-            return found
+            return shown
         x, values = self.curves
         near = np.array([np.interp(self.course.x_of(pose.phase), x, column) for column in values.T])
-        return found + 360.0 * np.nan_to_num(np.rint((near - found) / 360.0))
+        return shown + 360.0 * np.nan_to_num(np.rint((near - shown) / 360.0))
 
     def foot(self, pose: Pose) -> complex:
         """Return where the cursor stands on the axis at a pose, in pixels."""
-        return complex(self.plot.place(float(self.course.x_of(pose.phase)), self.plot.y.low))
+        return complex(self.plot.pixels(float(self.course.x_of(pose.phase)), self.plot.y.low))
 
     def past(self, pose: Pose) -> list[Layer]:
         """Return the areas between the axis and the curves, up to a pose: what the motion has passed."""
@@ -391,16 +391,16 @@ class ChartPanel:
         for n, column in enumerate(values.T):
             kept = (x < here) if self.speed >= 0 else (x > here)
             for run in runs_of(kept & np.isfinite(column)):
-                ends = self.plot.place(x[run[[0, -1]]][::-1], [level, level])
-                loop = np.concatenate((self.plot.place(x[run], column[run]), ends))
+                ends = self.plot.pixels(x[run[[0, -1]]][::-1], [level, level])
+                loop = np.concatenate((self.plot.pixels(x[run], column[run]), ends))
                 layers.append(Layer(self.colour(n), [loop], _PAST))
         return layers
 
     def cursor(self, pose: Pose) -> list[Layer]:
         """Return the line at a pose and the dots where it meets the curves."""
-        places = self.plot.place(self.course.x_of(pose.phase), [self.plot.y.low, *self.values_at(pose)])
-        found = [mark.at([place]) for mark, place in zip(self._marks, places, strict=True) if isfinite(place)]
-        return [layer for layers in found for layer in layers]
+        places = self.plot.pixels(self.course.x_of(pose.phase), [self.plot.y.low, *self.values_at(pose)])
+        marks = [mark.at([place]) for mark, place in zip(self._marks, places, strict=True) if isfinite(place)]
+        return [layer for layers in marks for layer in layers]
 
     @cached_property
     def _marks(self) -> tuple[Stamp, ...]:

@@ -24,7 +24,7 @@ def cognate_group(setting: DrawSetting, pose: Pose, numbers: Sequence[int]) -> G
     gauge, theme = setting.gauge, setting.theme
     ink, layers = mixed(theme.ink, theme.background, 1 - _FAINT), list[Layer]()
     for number in numbers:
-        bars = [[setting.view.place((at.real, at.imag)) for at in bar] for bar in cognate_bars(pose, number)]
+        bars = [[setting.view.pixel((at.real, at.imag)) for at in bar] for bar in cognate_bars(pose, number)]
         outlines = [rounded(bar, _SLIM * gauge.bar) for bar in bars]
         layers.append(Layer(ink, outlines, _PANE))
         layers += [Layer(ink, stroke(one, 0.6 * gauge.line, closed=True)) for one in outlines]

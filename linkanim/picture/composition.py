@@ -167,7 +167,7 @@ class Composition:
     """The rows that the legend has room for."""
     extent: Extent | None = None
 
-    def held(self, subject: Subject) -> Composition:
+    def while_dragged(self, subject: Subject) -> Composition:
         """Return the composition while a hand changes the linkage: words and names stay where they are.
 
         The view stays, too, as long as all that the linkage passes lies on its stage.
@@ -216,35 +216,37 @@ class _Composer:
             return self._arranged(self._first(0.0), self._far_centres)
         still = self.asked.moment is not None
         for lines in _ROOM_FOR_LINES if still and self.asked.names > 1 else (2.0,):
-            found = self._composed(lines)
-            if self._share(found) >= _LEAST:
+            composition = self._composed(lines)
+            if self._share(composition) >= _LEAST:
                 break
-        return found
+        return composition
 
     def _composed(self, lines: float) -> Composition:
         """Return the composition with so much room for dimension lines at first, in heights of their text."""
         still = self.asked.moment is not None
-        found = self._arranged(self._first(lines), self._far_centres)
+        composition = self._arranged(self._first(lines), self._far_centres)
         for _ in range(_ROUNDS if still else 1):
-            names, last = self._names(found), found
-            found = self._arranged_for(names, found)
-            grown = abs(found.view.scale / last.view.scale - 1.0)
+            names, last = self._names(composition), composition
+            composition = self._arranged_for(names, composition)
+            grown = abs(composition.view.scale / last.view.scale - 1.0)
             if grown < (_SAME if still else _ALIKE):
-                return replace(found, names=names)
-        names = self._names(found)
+                return replace(composition, names=names)
+        names = self._names(composition)
         rows = len(names.listed) + len(self._far_centres)
-        found = self._arranged_for(names, found) if rows != len(found.listed) else found
-        return replace(found, names=names)
+        composition = (
+            self._arranged_for(names, composition) if rows != len(composition.listed) else composition
+        )
+        return replace(composition, names=names)
 
-    def _arranged_for(self, names: Names, found: Composition) -> Composition:
+    def _arranged_for(self, names: Names, composition: Composition) -> Composition:
         """Return the composition with room for exactly these names, which were chosen in another one."""
-        exact = together([self._linkage, self._arrow_extent, *self._label_extents(names, found)])
+        exact = together([self._linkage, self._arrow_extent, *self._label_extents(names, composition)])
         return self._arranged(exact, (*(label.row for label in names.listed), *self._far_centres))
 
-    def _share(self, found: Composition) -> float:
+    def _share(self, composition: Composition) -> float:
         """Return the share of the picture's width or height that the linkage takes, whichever is greater."""
         box, (wide, high) = self._linkage.box, self.asked.size
-        scale = found.view.scale
+        scale = composition.view.scale
         return max(scale * (box.right - box.left) / wide, scale * (box.high - box.low) / high)
 
     @property
@@ -285,10 +287,10 @@ class _Composer:
     def _linkage(self) -> Extent:
         """How far the linkage extends, with the one beside it and places that have to be seen."""
         asked, figures = self.asked, self.subject.figures
-        found = [of_linkage(one, self._gauge, asked.moment, traced=asked.traced) for one in figures]
+        extents = [of_linkage(one, self._gauge, asked.moment, traced=asked.traced) for one in figures]
         if also := (*asked.also, *self._near_centres):
-            found.append(around(np.array(also), 2.0 * self._gauge.bar))
-        return together(found)
+            extents.append(around(np.array(also), 2.0 * self._gauge.bar))
+        return together(extents)
 
     @property
     def _near_centres(self) -> tuple[complex, ...]:
@@ -313,7 +315,7 @@ class _Composer:
     @cached_property
     def _arrow_extent(self) -> Extent:
         """How far arrows and their names extend."""
-        shown, found = self.subject.figure, []
+        shown, extents = self.subject.figure, []
         moment = self.asked.moment
         motion = shown.cycle if moment is None else shown.scene.solve(phase=np.array([moment]))
         step = 1 if moment is not None else max(len(shown.cycle.phase) // _SAMPLES, 1)
@@ -327,18 +329,18 @@ class _Composer:
                 wide = self.type.width(symbol, size, strong=True)
                 half = complex(wide / 2 + 2, size / 2 + 2)
                 off = 0.25 * size + np.abs(way.real) * wide / 2 + np.abs(way.imag) * size / 2
-                found.append(each(foot, tip + off * way, np.array([half])))
-        return together(found)
+                extents.append(each(foot, tip + off * way, np.array([half])))
+        return together(extents)
 
     def _first(self, lines: float) -> Extent:
         """Return the linkage and its arrows, with room for names whose places are not known yet.
 
         Dimension lines have so much room on each side, in heights of their text.
         """
-        found, asked, parts = [self._linkage, self._arrow_extent], self.asked, self._bare
+        extents, asked, parts = [self._linkage, self._arrow_extent], self.asked, self._bare
         size, shown = parts.label_size, self.subject.figure
         if asked.joints_named:
-            for name in shown.shown:
+            for name in shown.in_view:
                 wide = self.type.width(subscripted(name), size, strong=True)
                 path = (
                     shown.cycle.position[name]
@@ -346,15 +348,15 @@ class _Composer:
                     else np.array(shown.scene.pose(asked.moment, 0).position[name])
                 )
                 gap = self._gauge.bar + 0.2 * size
-                found.append(
+                extents.append(
                     around(
                         np.atleast_2d(path) @ np.array([1, 1j]),
                         (wide + gap, size + gap, wide + gap, size + gap),
                     )
                 )
         if asked.names > 1:
-            found.append(Extent(self._linkage.boxes, self._linkage.margins + lines * parts.small_size))
-        return together(found)
+            extents.append(Extent(self._linkage.boxes, self._linkage.margins + lines * parts.small_size))
+        return together(extents)
 
     def _arranged(self, extent: Extent, listed: tuple[str, ...]) -> Composition:
         """Return the words and slots that leave the linkage room, and the linkage fitted into it.
@@ -387,9 +389,9 @@ class _Composer:
                 weight = scale * (1.0 if not beside or len(sides) < 2 else 1.0 / _BETTER)
                 if best is None or weight > best[0] * (1 + 1e-9):
                     best = weight, slots, block
-                    found = scale
+                    fitting = scale
             # what is listed is nowhere else
-            if best is not None and (found >= least or (listed and not block.lines and not block.rows)):
+            if best is not None and (fitting >= least or (listed and not block.lines and not block.rows)):
                 break
         assert best is not None
         _, slots, block = best
@@ -406,20 +408,20 @@ class _Composer:
     def _symbols(self) -> Symbols | None:
         return symbols(self.subject.figure) if self.asked.names > 1 else None
 
-    def _setting(self, found: Composition) -> DrawSetting:
-        parts = self.subject.figure, found.view, self._gauge, self.theme
-        return DrawSetting(*parts, found.layout, self.look, self.type)
+    def _setting(self, composition: Composition) -> DrawSetting:
+        parts = self.subject.figure, composition.view, self._gauge, self.theme
+        return DrawSetting(*parts, composition.layout, self.look, self.type)
 
     def _marks(self, setting: DrawSetting) -> tuple[Turning | Sliding | None, DeadCentres | None]:
         turning = motion_of(setting) if self.look.names else None
         centred = dead_centres_of(setting) if self.look.names and self.look.dead_centres else None
         return turning, centred
 
-    def _names(self, found: Composition) -> Names:
-        setting = self._setting(found)
+    def _names(self, composition: Composition) -> Names:
+        setting = self._setting(composition)
         return names_of(setting, self._symbols, *self._marks(setting), self.arrows, self.asked.moment)
 
-    def _label_extents(self, names: Names, found: Composition) -> list[Extent]:
+    def _label_extents(self, names: Names, composition: Composition) -> list[Extent]:
         """Return how far labels, the lines drawn with them and the marks of the input extend."""
         shown, moment = self.subject.figure, self.asked.moment
         motion = shown.cycle if moment is None else shown.scene.solve(phase=np.array([moment]))
@@ -428,7 +430,7 @@ class _Composer:
         places = {
             name: (np.atleast_2d(motion.position[name])[::step] @ np.array([1, -1j])) for name in joints
         }
-        scale, result = found.view.scale, []
+        scale, result = composition.view.scale, []
         for label in names.labels:
             if label.anchor is None:
                 continue
@@ -443,7 +445,7 @@ class _Composer:
                 tracks = label.drawn.tracks(scale * at, scale * span, self._gauge)
                 for base, ends in label.drawn.bases(at, span, tracks):
                     result.append(each(np.conj(base), ends - scale * base, np.array([2 + 2j])))
-        turning, _ = self._marks(self._setting(found))
+        turning, _ = self._marks(self._setting(composition))
         if isinstance(turning, Turning):
             result.append(around(np.conj(places[turning.pivot]), turning.arrow + 4 * self._gauge.line))
         return result

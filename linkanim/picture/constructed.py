@@ -156,7 +156,7 @@ def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
 
 
 @lru_cache(maxsize=2)
-def found_by(scene: Scene, at: int, phase: float) -> tuple[complex, ...]:
+def points_up_to(scene: Scene, at: int, phase: float) -> tuple[complex, ...]:
     """Return the points that a construction has found up to a step, but for those far from the linkage."""
     box = figure(scene).box
     size, middle = max(box.right - box.left, box.high - box.low), complex(*box.middle)
@@ -210,17 +210,17 @@ def linkage_marks(scene: Scene, phase: float) -> tuple[Mark, ...]:
 def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
     known = CentrePairs(shown)
     pose = shown.scene.pose(phase, 1)
-    found, near = known.of(pose), set(known.near(pose, shown.box, _FAR))
+    centres, near = known.of(pose), set(known.near(pose, shown.box, _FAR))
     size = known.size
     links = shown.by_number
     touching = [
         (one, other) for (one, other), _ in known.pairs if touch(shown.linkage, links[one], links[other])
     ]
-    given = [pair for pair in touching if pair in found]
-    marks = [_given_mark(shown, pose, pair, found[pair], near, size) for pair in given]
-    steps = [ConstructionStep(_given_words(shown, found, given), tuple(marks))]
+    given = [pair for pair in touching if pair in centres]
+    marks = [_given_mark(shown, pose, pair, centres[pair], near, size) for pair in given]
+    steps = [ConstructionStep(_given_words(shown, centres, given), tuple(marks))]
     for step in known.steps:
-        steps += _kennedy_steps(step, found, near, size)
+        steps += _kennedy_steps(step, centres, near, size)
     return tuple(steps)
 
 
@@ -235,7 +235,7 @@ def _named(pair: tuple[str, str]) -> str:
     return label_of(*pair).replace("_{", "").replace("}", "").translate(_LOWERED)
 
 
-def _given_words(shown: Figure, found: dict[tuple[str, str], Centre], given: list[tuple[str, str]]) -> str:
+def _given_words(shown: Figure, centres: dict[tuple[str, str], Centre], given: list[tuple[str, str]]) -> str:
     links, linkage = shown.by_number, shown.linkage
     joined = [pair for pair in given if joint_between(linkage, *(links[number] for number in pair))]
     slid = [
@@ -259,10 +259,10 @@ def _given_words(shown: Figure, found: dict[tuple[str, str], Centre], given: lis
 
 
 def _given_mark(
-    shown: Figure, pose: Pose, pair: tuple[str, str], found: Centre, near: set[complex], size: float
+    shown: Figure, pose: Pose, pair: tuple[str, str], centre: Centre, near: set[complex], size: float
 ) -> Mark:
     """Return the mark of a centre that is known by how links touch; of one at infinity, its direction."""
-    place, way = found
+    place, way = centre
     if place is not None:
         return Mark("dot", np.array([place]), _named(pair), "first", place in near)
     slide = slide_between(shown.linkage, *(shown.by_number[number] for number in pair))
@@ -274,16 +274,16 @@ def _given_mark(
 
 
 def _kennedy_steps(
-    step: KennedyStep, found: dict[tuple[str, str], Centre], near: set[complex], size: float
+    step: KennedyStep, centres: dict[tuple[str, str], Centre], near: set[complex], size: float
 ) -> list[ConstructionStep]:
     """Return the steps to a centre: a line for each of the links that lead to it, and where they meet."""
     one, other = step.pair
-    target, name = found.get(step.pair), _named(step.pair)
+    target, name = centres.get(step.pair), _named(step.pair)
     place = target.place if target else None
     steps = []
     for n, third in enumerate(step.by):
-        through = _through((one, third), (third, other), found)
-        ends = kennedy_line(step.pair, third, found, _REACH * size)
+        through = _through((one, third), (third, other), centres)
+        ends = kennedy_line(step.pair, third, centres, _REACH * size)
         marks = []
         if ends:
             begin, end = ends
@@ -297,7 +297,7 @@ def _kennedy_steps(
             words += (
                 ": there it is." if place is not None else f"; both are parallel: {name} is infinitely far."
             )
-        if not ends and _all_far(step.pair, third, found):
+        if not ends and _all_far(step.pair, third, centres):
             words = f"For links {one}, {third} and {other} the line is at infinity: {name} is infinitely far."
         elif not ends:
             words = f"Links {one}, {third} and {other} give no line here: their centres coincide."
@@ -307,16 +307,16 @@ def _kennedy_steps(
     return steps
 
 
-def _all_far(pair: tuple[str, str], third: str, found: dict[tuple[str, str], Centre]) -> bool:
+def _all_far(pair: tuple[str, str], third: str, centres: dict[tuple[str, str], Centre]) -> bool:
     """Return whether the centres of two links with a third are both infinitely far."""
-    known = [found.get((end, third)) or found.get((third, end)) for end in pair]
+    known = [centres.get((end, third)) or centres.get((third, end)) for end in pair]
     return all(centre is not None and centre.place is None for centre in known)
 
 
-def _through(one: tuple[str, str], other: tuple[str, str], found: dict[tuple[str, str], Centre]) -> str:
+def _through(one: tuple[str, str], other: tuple[str, str], centres: dict[tuple[str, str], Centre]) -> str:
     """Return the line through two centres in words."""
     names = [_named(pair) for pair in (one, other)]
-    known = [found.get(pair) or found.get(pair[::-1]) for pair in (one, other)]
+    known = [centres.get(pair) or centres.get(pair[::-1]) for pair in (one, other)]
     far = [centre is not None and centre.place is None for centre in known]
     if any(far) and not all(far):
         there, here = names if far[0] else names[::-1]

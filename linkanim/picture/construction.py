@@ -161,7 +161,7 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
     feet = [_foot(mark, pixels(mark.points)) for mark in named]
     choices, leads = list[Alternatives](), list[int]()
     for mark, size, foot in zip(named, sizes, feet, strict=True):
-        places, lead = _places(mark, pixels(mark.points), foot, size, pen)
+        places, lead = _label_places(mark, pixels(mark.points), foot, size, pen)
         off = [busy - at for at in places]
         covers = [int(((abs(one.real) < size[0] / 2) & (abs(one.imag) < size[1] / 2)).sum()) for one in off]
         price = 0.05 * np.arange(len(places)) + 2.0 * np.array(covers) / max(len(busy), 1)
@@ -186,7 +186,7 @@ def _foot(mark: Mark, at: Loop) -> complex:
     return complex(at[len(at) // 2 if mark.shape == "arc" else 0])
 
 
-def _places(
+def _label_places(
     mark: Mark, at: Loop, foot: complex, size: tuple[float, float], pen: Pen
 ) -> tuple[list[complex], int]:
     """Return where a mark's name may stand, and from which place on a line leads to it."""

@@ -54,9 +54,9 @@ class DeadCentres:
             lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
         feet = (*zip(self.ends, (-1, 1), strict=True), (sum(self.ends) / 2, 0))
         for text, foot in zip(lines, feet, strict=False):
-            yield text, foot[0], partial(self._places, *foot)
+            yield text, foot[0], partial(self._text_places, *foot)
 
-    def _places(self, foot: complex, end: int, size: tuple[float, float]) -> Loop:
+    def _text_places(self, foot: complex, end: int, size: tuple[float, float]) -> Loop:
         """Return places for the middle of a line of text off the guide, those on its side `out` first.
 
         The text is at one `end` of the guide, -1 or 1, or about its middle, 0.
@@ -141,7 +141,7 @@ def dead_centres_of(setting: DrawSetting) -> DeadCentres | None:
     slider, phases = body.slider if body else None, figure.scene.info.dead_centres
     if slider is None or phases is None or figure.linkage.joint(slider).slides[0].start is not None:
         return None
-    back, forward = (setting.view.place(figure.scene.pose(phase, 0).position[slider]) for phase in phases)
+    back, forward = (setting.view.pixel(figure.scene.pose(phase, 0).position[slider]) for phase in phases)
     if not abs(forward - back) > _VISIBLE:
         return None
     return DeadCentres(setting, (back, forward), rail_reach(setting, slider))

@@ -165,8 +165,8 @@ def symbols(figure: Figure) -> Symbols:
         named = [_bar(figure, body.name, *body.joints[:2], bare=len(body.joints) == 2) for body in bodies]
         return Symbols((*ground, *named), (), _angle(figure))
     points = _points(figure)
-    found = (*_measured(figure, bodies), *(leg for point in points for leg in _legs(figure, point)))
-    return Symbols((*ground, *_numbered(figure, found)), tuple(points), _angle(figure))
+    measurements = (*_measured(figure, bodies), *(leg for point in points for leg in _legs(figure, point)))
+    return Symbols((*ground, *_numbered(figure, measurements)), tuple(points), _angle(figure))
 
 
 def leg_part(point: Rigid, view: View, gauge: Gauge, colour: Colour) -> Part:
@@ -206,24 +206,24 @@ def _ground(figure: Figure) -> Iterator[Measurement]:
 
 def _offsets(figure: Figure) -> Iterator[Measurement]:
     """Yield how far guides on the ground are from the first pivot, for those that run through no pivot."""
-    found, names = [], pivots(figure)
+    offsets, names = [], pivots(figure)
     lines = [(joint, line) for joint in figure.linkage.joints if (line := getattr(joint, "line", None))]
     for joint, line in lines if names else ():
         across = -1j * complex(directions(line.angle))
         place = figure.start(joint.name)
         off = [((place - figure.start(name)) * across.conjugate()).real for name in names]
         if line.on is None and min(map(abs, off)) > _NONE * figure.extent:
-            found.append((joint.name, off[0] * across))
-    for n, (name, foot) in enumerate(found, start=1):
-        symbol = subscripted(f"e{n}") if len(found) > 1 else "e"
+            offsets.append((joint.name, off[0] * across))
+    for n, (name, foot) in enumerate(offsets, start=1):
+        symbol = subscripted(f"e{n}") if len(offsets) > 1 else "e"
         about = f"{_named(names[0])} to the guide of {_named(name)}"
         yield Measurement(symbol, abs(foot), about, (names[0], names[0]), 0, foot.conjugate(), frozenset())
 
 
-def _numbered(figure: Figure, found: Iterable[Measurement]) -> Iterator[Measurement]:
+def _numbered(figure: Figure, measurements: Iterable[Measurement]) -> Iterator[Measurement]:
     """Yield each span once, numbered from 2, and an angle with the number of the length that it leads to."""
     numbers: dict[frozenset[complex], int] = {}
-    for one in found:
+    for one in measurements:
         if not one.angle:
             span = _span(figure, one)
             stated = span in numbers

@@ -102,7 +102,7 @@ class Drawing:
         """
         if self._placed is None or self._placed[0] is not pose:
             view = self.setting.view
-            places = {name: _somewhere(view.place(point)) for name, point in pose.position.items()}
+            places = {name: _somewhere(view.pixel(point)) for name, point in pose.position.items()}
             self._placed = pose, places
         return self._placed[1]
 
@@ -164,7 +164,7 @@ class Drawing:
         yield from self._pinned(places)
         yield Group("dimensions", placed(parts.legs, places), made_of=parts.legs)
         yield Group("input", list(self._turning(pose, places)), made_of=parts.turning)
-        masses = [self.setting.view.place(at) for at in pose.com_position.values()]
+        masses = [self.setting.view.pixel(at) for at in pose.com_position.values()]
         yield Group("centres-of-mass", parts.mass.at(masses), made_of=parts.mass)
         arrows, busy = (
             arrow_layers(parts.arrows, pose, self.setting.view, self.setting.figure.moving),

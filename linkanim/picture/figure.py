@@ -130,12 +130,12 @@ class Figure:
     @cached_property
     def _bare_ends(self) -> dict[str, list[tuple[int, str]]]:
         """The far ends of the unnamed bars at each joint, each with its bar's number."""
-        found: dict[str, list[tuple[int, str]]] = {}
+        ends: dict[str, list[tuple[int, str]]] = {}
         for number, body in enumerate(self.bodies):
             if not body.name:
                 for near, far in (body.joints[:2], body.joints[1::-1]):
-                    found.setdefault(near, []).append((number, far))
-        return found
+                    ends.setdefault(near, []).append((number, far))
+        return ends
 
     def _kept(self, body: Body, name: str) -> bool:
         """Return whether a joint keeps its place in a body's frame over the cycle."""
@@ -160,7 +160,7 @@ class Figure:
         return tuple(name for name in self.pins if self.linkage.joint(name).fixed)
 
     @cached_property
-    def shown(self) -> tuple[str, ...]:
+    def in_view(self) -> tuple[str, ...]:
         """The joints that must be in the picture."""
         joints = self.linkage.joints
         drawn = {name for body in self.bodies for name in body.joints}
@@ -170,18 +170,18 @@ class Figure:
     @cached_property
     def moving(self) -> tuple[str, ...]:
         """The joints that move; of several that always coincide, one."""
-        found: dict[str, NDArray[np.float64]] = {}
-        for name in self.shown:
+        paths: dict[str, NDArray[np.float64]] = {}
+        for name in self.in_view:
             path = np.atleast_2d(self.cycle.position[name])
             still, grain = np.ptp(path, axis=0).max() <= _STILL * self.extent, _STILL * self.extent
-            if not still and not any(np.abs(path - other).max() <= grain for other in found.values()):
-                found[name] = path
-        return tuple(found)
+            if not still and not any(np.abs(path - other).max() <= grain for other in paths.values()):
+                paths[name] = path
+        return tuple(paths)
 
     @cached_property
     def box(self) -> Box:
         """The rectangle of the scene that the linkage sweeps; the unit square for an empty one."""
-        points = [np.atleast_2d(self.cycle.position[name]) for name in self.shown]
+        points = [np.atleast_2d(self.cycle.position[name]) for name in self.in_view]
         if not points:
             return Box(0.0, 0.0, 1.0, 1.0)
         swept = np.concatenate(points)
@@ -190,7 +190,7 @@ class Figure:
 
     def box_of(self, pose: Pose) -> Box:
         """Return the rectangle of the scene that a pose takes up."""
-        x, y = zip(*(pose.position[name] for name in self.shown), strict=True)
+        x, y = zip(*(pose.position[name] for name in self.in_view), strict=True)
         return Box(min(x), min(y), max(x), max(y))
 
     @cached_property
@@ -205,7 +205,7 @@ class Figure:
         It is the least distance of two joints, or of the end of a bar from the line of a bar that it meets.
         Distances that do not change are left out; 1 for a rigid linkage.
         """
-        places = {name: np.atleast_2d(self.cycle.position[name]) @ DOWN for name in self.shown}
+        places = {name: np.atleast_2d(self.cycle.position[name]) @ DOWN for name in self.in_view}
         far = [np.abs(places[one] - places[other]) for one, other in combinations(places, 2)]
         for one, other in combinations((body.joints[:2] for body in self.bodies), 2):
             for joint in {*one} & {*other}:
@@ -236,8 +236,8 @@ class Figure:
         """Return the vectors of a motion's polygon, including those of traced coupler points."""
         from linkanim.mechanics.polygons import chains
 
-        found = chains(motion, self.linkage, order, self.scene.trace)
-        return [side for chain in found for side in chain.sides]
+        sides = chains(motion, self.linkage, order, self.scene.trace)
+        return [side for chain in sides for side in chain.sides]
 
     @property
     def extent(self) -> float:
@@ -263,7 +263,7 @@ class Figure:
     def pixel(self, name: str, view: View) -> complex:
         """Return the pixel at which a joint stands as the cycle begins."""
         start = self.start(name)
-        return view.place((start.real, start.imag))
+        return view.pixel((start.real, start.imag))
 
     def path(self, name: str, view: View) -> Loop:
         """Return the pixels a joint passes through in one cycle, at equal steps of phase."""
@@ -303,10 +303,10 @@ def figure(scene: Scene) -> Figure:
     """
     periods = min(round(scene.period / tau), _MOST_PERIODS)
     count = scene.mechanism.count(SAMPLES * periods)
-    found = Figure(scene, scene.cycle(count))
-    off = _off_chords(found)
+    drawn = Figure(scene, scene.cycle(count))
+    off = _off_chords(drawn)
     times = next((n for n in (1, 2, 4) if off <= n * n * _FLAT), 8)
-    return found if times == 1 else Figure(scene, scene.cycle(times * count))
+    return drawn if times == 1 else Figure(scene, scene.cycle(times * count))
 
 
 def _off_chords(shown: Figure) -> float:

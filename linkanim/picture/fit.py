@@ -61,11 +61,11 @@ NOTHING = Extent(np.zeros((0, 4)), np.zeros((0, 4)))
 
 def around(points: ArrayLike, margins: float | tuple[float, float, float, float]) -> Extent:
     """Return the rectangle that holds points x + yi of the scene, with margins in pixels."""
-    found = np.asarray(points, np.complex128).ravel()
-    found = found[np.isfinite(found)]
-    if not found.size:
+    finite = np.asarray(points, np.complex128).ravel()
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
         return NOTHING
-    x, y = found.real, found.imag
+    x, y = finite.real, finite.imag
     sides = margins if isinstance(margins, tuple) else (margins,) * 4
     return Extent(np.array([[x.min(), y.min(), x.max(), y.max()]]), np.array([sides], np.float64))
 
@@ -82,9 +82,9 @@ def each(points: Points, offsets: Points, half: Points) -> Extent:
 
 def together(extents: Iterable[Extent]) -> Extent:
     """Return all rectangles of several extents."""
-    found = [*extents] or [NOTHING]
+    parts = [*extents] or [NOTHING]
     return Extent(
-        np.concatenate([one.boxes for one in found]), np.concatenate([one.margins for one in found])
+        np.concatenate([one.boxes for one in parts]), np.concatenate([one.margins for one in parts])
     )
 
 
@@ -154,13 +154,13 @@ def _parts(figure: Figure, gauge: Gauge, moment: float | None, *, traced: bool) 
 
     def whole(name: str) -> Points:
         places = np.atleast_2d(figure.cycle.position[name])
-        found: Points = places[:, 0] + 1j * places[:, 1]
-        return found
+        points: Points = places[:, 0] + 1j * places[:, 1]
+        return points
 
     def path(name: str) -> Points:
         return whole(name) if still is None else np.array([complex(*still.position[name])])
 
-    for name in figure.shown:
+    for name in figure.in_view:
         yield around(path(name), bar)
     guided = {one.name for one in figure.linkage.joints if isinstance(one, Guided) and one.line.on is None}
     travelling = (one.name for one in figure.linkage.joints if one.travels)

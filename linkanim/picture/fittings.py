@@ -165,26 +165,26 @@ class Damping:
 def coils(context: DrawContext) -> tuple[Coil, ...]:
     """Return the scene's springs."""
     figure, view, gauge, theme = context.known
-    lead, found = 1.5 * gauge.bar, []
+    lead, coils = 1.5 * gauge.bar, []
     for item in figure.linkage.springs:
         room = reach(figure, view, item).shortest - 2 * lead
         count = min(max(int(room / (_WOUND * gauge.line)), _COILS[0]), _COILS[1])
-        found.append(Coil(item.between, 1.15 * gauge.bar, lead, count, gauge, theme))
-    return tuple(found)
+        coils.append(Coil(item.between, 1.15 * gauge.bar, lead, count, gauge, theme))
+    return tuple(coils)
 
 
 def dampings(context: DrawContext) -> tuple[Damping, ...]:
     """Return the scene's dampers and driving cylinder; each barrel takes the stroke where there is room."""
     figure, view, gauge, theme = context.known
-    found = []
+    dampings = []
     for item in figure.cylinders:
         span = reach(figure, view, item)
         needed = (span.longest - span.shortest) / 0.68
         least = 5 * gauge.bar if item.forceful else max(5 * gauge.bar, _CYLINDER * span.shortest)
         length = min(max(needed, least), max(0.8 * span.shortest, 2 * gauge.bar))
         foot = max(0.5 * (span.shortest - length), 0.0) * 0.6
-        found.append(damping(item.between, span, (length, foot), gauge, theme))
-    return tuple(found)
+        dampings.append(damping(item.between, span, (length, foot), gauge, theme))
+    return tuple(dampings)
 
 
 def damping(
@@ -306,7 +306,7 @@ def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, 
     step = max(len(figure.cycle.phase) // _TRIED, 1)
     for fitting in fittings(context):
         if fitting.guide and fitting.guide.head:
-            ends = [end for line, _ in _placed(fitting.guide, context).lines for end in line]
+            ends = [end for line, _ in _channel(fitting.guide, context).lines for end in line]
             yield (
                 np.array(ends, np.complex128).conj() / scale,
                 np.zeros(1, np.complex128),
@@ -410,7 +410,7 @@ def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) 
 
 def rails_of(context: DrawContext) -> Iterator[list[Loop]]:
     """Yield the lines of each guide on the ground; they are open where another guide crosses them."""
-    places = [_placed(fitting.guide, context) for fitting in fittings(context) if fitting.guide]
+    places = [_channel(fitting.guide, context) for fitting in fittings(context) if fitting.guide]
     for place in places:
         others = [other for other in places if other is not place]
         parts = [(part, side) for line, side in place.lines for part in _opened(line, others)]
@@ -449,7 +449,7 @@ class _Channel(NamedTuple):
     lines: list[tuple[_Line, int]]
 
 
-def _placed(guide: GuideRails, context: DrawContext) -> _Channel:
+def _channel(guide: GuideRails, context: DrawContext) -> _Channel:
     """Return a guide as long as the joint's travel needs."""
     path = context.figure.path(guide.joint, context.view) * np.conj(guide.along)
     travel, across = path.real, 1j * float(np.nanmean(path.imag))

@@ -38,7 +38,7 @@ def lines_of(picture: Picture, phase: float) -> list[Labelled]:
     """Return all lines of text that a picture shows at a phase."""
     pose, _ = picture.poses(phase)
     places = picture.drawing.places(pose)
-    found = []
+    lines = []
     for group in picture.groups(pose):
         for line in group.named:
             box = _box(line, picture)
@@ -46,8 +46,8 @@ def lines_of(picture: Picture, phase: float) -> list[Labelled]:
             middle = box.middle
             if kind == "joint":
                 middle = places[name]
-            found.append(Labelled(line.of, line.text, box, (middle.real, middle.imag), 1.0))
-    return found
+            lines.append(Labelled(line.of, line.text, box, (middle.real, middle.imag), 1.0))
+    return lines
 
 
 def _box(line: Caption, picture: Picture) -> Rect:

@@ -45,7 +45,7 @@ def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
     """Return the panel, its text as large as its room allows."""
     size, parts = _fitting(board, panel)
     sheet = board.sheet(board.layout.lists.width, _height(parts, size))
-    for part, top in _placed(parts, size):
+    for part, top in _stacked(parts, size):
         part.draw(sheet, top)
     return sheet
 
@@ -53,7 +53,7 @@ def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
 def answer_rows(board: Board, panel: GamePanel) -> tuple[Span, ...]:
     """Return where the answers are on the panel's sheet."""
     size, parts = _fitting(board, panel)
-    heights = [(top, top + part.high) for part, top in _placed(parts, size) if part.is_answer]
+    heights = [(top, top + part.high) for part, top in _stacked(parts, size) if part.is_answer]
     return tuple((n, top, end) for n, (top, end) in enumerate(heights))
 
 
@@ -78,7 +78,7 @@ def _height(parts: list[_PanelPart], size: int) -> float:
     return sum(part.high + _GAP * size for part in parts) + 0.9 * size
 
 
-def _placed(parts: list[_PanelPart], size: int) -> Iterator[tuple[_PanelPart, float]]:
+def _stacked(parts: list[_PanelPart], size: int) -> Iterator[tuple[_PanelPart, float]]:
     top = 0.8 * size
     for part in parts:
         yield part, top

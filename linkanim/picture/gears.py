@@ -99,8 +99,8 @@ def pairs(figure: Figure) -> tuple[WheelPair, ...]:
     still about that crank's pivot: a sun, or a ring around the planet where it turns the other way.
     """
     cranks = {crank.name: crank for crank in figure.linkage.cranks}
-    found = (_pair(figure, crank, cranks) for crank in cranks.values())
-    return tuple(pair for pair in found if pair)
+    wheels = (_pair(figure, crank, cranks) for crank in cranks.values())
+    return tuple(pair for pair in wheels if pair)
 
 
 def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> WheelPair | None:

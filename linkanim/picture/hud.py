@@ -160,10 +160,10 @@ def charted(scene: Scene) -> dict[str, str]:
     cranks = (body for body in linkage.bodies if linkage.crank_of(body) and drive.joint in body.joints)
     sliders = (body for body in linkage.bodies if body.slider == drive.joint)
     driven = next((body.name for body in (cranks if coordinate.is_angle else sliders)), "")
-    found = {f"{info.input_name} {coordinate.name}": f"{driven}.{coordinate.name}"}
-    found[" ".join(filter(None, (drive.actuator.noun, coordinate.velocity)))] = coordinate.rate_token
-    found |= {one.label: one.quantity.token for one in measured(scene)}
-    return {label: token for label, token in found.items() if token in scene.quantities}
+    tokens = {f"{info.input_name} {coordinate.name}": f"{driven}.{coordinate.name}"}
+    tokens[" ".join(filter(None, (drive.actuator.noun, coordinate.velocity)))] = coordinate.rate_token
+    tokens |= {one.label: one.quantity.token for one in measured(scene)}
+    return {label: token for label, token in tokens.items() if token in scene.quantities}
 
 
 def _row(one: MeasuredRow, length_unit: str) -> Row:
@@ -171,8 +171,8 @@ def _row(one: MeasuredRow, length_unit: str) -> Row:
     quantity, unit = one.quantity, one.quantity.shown_unit(length_unit)
 
     def value(pose: Pose) -> str | None:
-        found = quantity.shown(pose)
-        return None if found is None else f"{stepped(float(found), one.step)} {unit}"
+        value = quantity.shown(pose)
+        return None if value is None else f"{stepped(float(value), one.step)} {unit}"
 
     return Row(one.rank, one.label, value)
 

@@ -94,7 +94,7 @@ class Layered:
         """The corners of a rectangle, in mm, that holds all plates over the whole period."""
         motion = self.scene.cycle(self.scene.mechanism.count(_PHASES), derivatives=0)
         scale = self._scale(self.scene.length_unit)
-        found = []
+        reach = []
         for plate in self.plates:
             edge = np.array(hull(plate.loops[0].tolist()))
             origin, axis, turn = plate.frame
@@ -105,8 +105,8 @@ class Layered:
             if axis:
                 one, other = (as_complex(motion.position[name]) for name in axis)
                 ways *= (other - one) / np.abs(other - one)
-            found.append((at[:, None] + np.multiply.outer(ways, edge)).ravel())
-        return np.array(hull(np.concatenate(found).tolist()))
+            reach.append((at[:, None] + np.multiply.outer(ways, edge)).ravel())
+        return np.array(hull(np.concatenate(reach).tolist()))
 
     def lying(self, frames: Sequence[Frame], pose: Pose, unit: str) -> list[tuple[complex, complex]]:
         """Return where frames lie at a pose in a `unit` of length: origins in mm, and directions."""

@@ -40,7 +40,7 @@ def measure(setting: DrawSetting, begin: complex, end: complex, shown: Dimension
     yield Group("measure", [*along, *thin, line, back], [words], over=True)
 
 
-def beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Group:
+def label_beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Group:
     """Return words without a dimension line, beside what lies from `begin` to `end`, in pixels."""
     _, back, caption = _label(setting, begin, end, words)
     return Group("beside", [back], [caption], over=True)
@@ -81,7 +81,7 @@ def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
 
 def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
     """Yield the light round a joint that can be dragged."""
-    middle = setting.view.place(pose.position[joint])
+    middle = setting.view.pixel(pose.position[joint])
     for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
         yield Layer(ORANGE, [middle + disc(reach * setting.gauge.bar)], alpha)
 
@@ -89,8 +89,8 @@ def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
 def spots(setting: DrawSetting, shown: Sequence[Spot], pose: Pose) -> Iterator[tuple[list[Layer], Caption]]:
     """Yield the marks of answers' places: a ring, and beside it, off joints and others, the key on a disc."""
     theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
-    places = [setting.view.place(spot.at) for spot in shown]
-    joints = [setting.view.place(pose.position[name]) for name in setting.figure.shown]
+    places = [setting.view.pixel(spot.at) for spot in shown]
+    joints = [setting.view.pixel(pose.position[name]) for name in setting.figure.in_view]
     taken = [*places, *joints]
     for spot, at in zip(shown, places, strict=True):
         colour = mood_colour(theme, spot.mood)
@@ -147,7 +147,7 @@ def band(setting: DrawSetting, shown: BandShown) -> Group:
     """Return the bands round traces, each in its trace's colour."""
     theme, layers = setting.theme, list[Layer]()
     for n, pairs in enumerate(shown.edges):
-        edges = np.array([[setting.view.place((at.real, at.imag)) for at in pair] for pair in pairs])
+        edges = np.array([[setting.view.pixel((at.real, at.imag)) for at in pair] for pair in pairs])
         (left, right), (further, beyond) = edges.T, np.roll(edges, -1, axis=0).T
         loops = np.stack([left, right, beyond, further], axis=1)
         turns = (np.conj(beyond - left) * (further - right)).imag > 0
@@ -159,7 +159,7 @@ def band(setting: DrawSetting, shown: BandShown) -> Group:
 def lane(setting: DrawSetting, shown: Lane) -> Group:
     """Return the paper between the lines, the lines, and the guide for comparing the ram with them."""
     _, view, gauge, theme = setting.known
-    back, forward = view.place(shown.back), view.place(shown.forward)
+    back, forward = view.pixel(shown.back), view.pixel(shown.forward)
     across, beside = 1j * unit(forward - back), max(shown.half_width, BEYOND) * (forward - back)
     stage, ends = setting.layout.stage.inset(1.8 * gauge.line), (back - beside, forward + beside)
 

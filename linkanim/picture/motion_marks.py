@@ -144,8 +144,8 @@ def sides_of(path: Loop) -> Loop:
     if not points.size:
         return np.zeros_like(path)
     sides = offsets(np.concatenate((points[-1:], points, points[:1])))[1:-1]
-    found: Loop = sides[np.cumsum(moved) - 1]
-    return found
+    chosen: Loop = sides[np.cumsum(moved) - 1]
+    return chosen
 
 
 def _corners(edges: Loop) -> NDArray[np.bool_]:
@@ -167,13 +167,13 @@ def _corners(edges: Loop) -> NDArray[np.bool_]:
 def traces(context: DrawContext) -> tuple[Trace, ...]:
     """Return the curves of the scene's traced joints."""
     figure, view, gauge, theme = context.known
-    found = []
+    traces = []
     for n, joint in enumerate(figure.scene.trace):
         colour = theme.traces[n % len(theme.traces)]
         back = mixed(colour, theme.background, _FAINTER if theme.lit else _FAINT)
         path = figure.path(joint, view)
-        found.append(Trace(joint, path, figure.scene.period, colour, back, 1.3 * gauge.line))
-    return tuple(found)
+        traces.append(Trace(joint, path, figure.scene.period, colour, back, 1.3 * gauge.line))
+    return tuple(traces)
 
 
 # The input's motion: an arrow that bends as the driven bar turns, its angle's arc; or a straight arrow.
@@ -416,11 +416,11 @@ class Arrows:
     def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[SeenArrow]:
         """Return the arrows of a pose that are long enough to be seen, in pixels."""
         scale = self.scale(pose.input_speed)
-        found = [
-            SeenArrow(symbol, view.place(place), complex(scale * x, -scale * y))
+        arrows = [
+            SeenArrow(symbol, view.pixel(place), complex(scale * x, -scale * y))
             for symbol, place, (x, y) in _values(pose, self.kind, joints)
         ]
-        return [arrow for arrow in found if 0.01 * self.longest < abs(arrow.reach) < self.longest_drawn]
+        return [arrow for arrow in arrows if 0.01 * self.longest < abs(arrow.reach) < self.longest_drawn]
 
 
 def arrow_layers(

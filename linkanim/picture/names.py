@@ -130,15 +130,15 @@ class Names:
 
     def captions(self, places: Places, setting: DrawSetting, heads: Sequence[complex] = ()) -> list[Caption]:
         """Return all labels in a pose; of those that arrowheads lie on, none."""
-        scale, reach, found = setting.view.scale, 2.4 * setting.gauge.line, list[Caption]()
+        scale, reach, captions = setting.view.scale, 2.4 * setting.gauge.line, list[Caption]()
         kept_off = np.array(heads, np.complex128)
         for label in self.labels:
             if label.anchor:
                 middle = label.anchor.middle(places, scale, label.size)
                 rect = _about(middle, label.size)
                 if not _is_on(rect, kept_off, reach):
-                    found.append(_caption(label, middle, setting))
-        return found
+                    captions.append(_caption(label, middle, setting))
+        return captions
 
     def leaders(self, places: Places, setting: DrawSetting) -> list[Layer]:
         """Return the lines from labels to what they name, in a still."""
@@ -157,14 +157,14 @@ class Names:
 
     def parts(self, setting: DrawSetting) -> dict[str, Part]:
         """Return the dimension lines in a view, by what they measure."""
-        found = {}
+        parts = {}
         for label in self.labels:
             if label.drawn:
                 at, head = map(setting.figure.start, label.drawn.frame)
                 one = label.drawn.frame[0] == label.drawn.frame[1]
                 span = setting.view.scale * (1.0 if one else abs(head - at))
-                found[label.of] = label.drawn.part(span, setting.gauge, setting.theme.dim)
-        return found
+                parts[label.of] = label.drawn.part(span, setting.gauge, setting.theme.dim)
+        return parts
 
     def measuring(self, known: Symbols | None, unit_: str) -> Names:
         """Return the labels in their places with the present lengths."""
@@ -187,16 +187,16 @@ class Names:
             (n, one) for n, kind in enumerate(kinds) for one in kind.seen(pose, setting.view, figure.moving)
         ]
         long = [(n, one) for n, one in seen if abs(one.reach) >= _SHORTEST * line and one.of in self.ways]
-        found: list[list[Caption]] = [[] for _ in kinds]
+        captions: list[list[Caption]] = [[] for _ in kinds]
         if not long:
-            return found
+            return captions
         labels = [_label(setting, one.symbol, line, "", one.of) for _, one in long]
         middles = [
             self.ways[one.of].middle(one, label.size) for (_, one), label in zip(long, labels, strict=True)
         ]
         rects = [_about(middle, label.size) for middle, label in zip(middles, labels, strict=True)]
         busy, heads = [*taken], np.array([one.foot + one.reach for _, one in seen])
-        pins = np.array([setting.view.place(pose.position[name]) for name in figure.pins])
+        pins = np.array([setting.view.pixel(pose.position[name]) for name in figure.pins])
         head, pin, room = 2.4 * setting.gauge.line, setting.gauge.pin, setting.layout.stage
         for (n, _), label, middle, rect in zip(long, labels, middles, rects, strict=True):
             covers = _is_on(rect, heads, head) or _is_on(rect, pins, pin)
@@ -205,17 +205,17 @@ class Names:
             if not covers and (inside or setting.look.framed):
                 busy.append(rect)
                 colour = kinds[n].colour
-                found[n].append(_caption(label, middle, setting)._replace(colour=colour))
-        return found
+                captions[n].append(_caption(label, middle, setting)._replace(colour=colour))
+        return captions
 
     def centre_names(self, centres: Centres, pose: Pose, taken: Iterable[Rect]) -> list[Caption]:
         """Return the names of instant centres: beside their crosses, or behind arrows that lead out.
 
         One that would lie on a pin, or on what is `taken`, is left out.
         """
-        setting, line, busy, found = centres.setting, centres.setting.layout.small_size, [*taken], []
+        setting, line, busy, captions = centres.setting, centres.setting.layout.small_size, [*taken], []
         kept = {label.of for label in self.labels}
-        pins = np.array([setting.view.place(pose.position[name]) for name in setting.figure.pins])
+        pins = np.array([setting.view.pixel(pose.position[name]) for name in setting.figure.pins])
         for seen in centres.seen(pose):
             label = _label(setting, seen.label, line, "warning", f"centre:{plain(seen.label)}")
             if seen.jointed or (label.of in kept and not seen.direction):
@@ -235,8 +235,8 @@ class Names:
                 and not _is_on(rect, pins, setting.gauge.pin)
             ):
                 busy.append(rect)
-                found.append(_caption(label, middle, setting))
-        return found
+                captions.append(_caption(label, middle, setting))
+        return captions
 
 
 def _caption(label: Label, middle: complex, setting: DrawSetting) -> Caption:
@@ -380,8 +380,8 @@ class _Labelling:
     def _pixels(self, points: NDArray[np.float64]) -> Loop:
         """Return pixels at the moments, for points of the scene at all of the motion's phases."""
         view = self.setting.view
-        found = view.x + 1j * view.y + view.scale * (np.atleast_2d(points)[:: self.step] @ DOWN)
-        return np.where(np.isfinite(found), found, -_AWAY)
+        pixels = view.x + 1j * view.y + view.scale * (np.atleast_2d(points)[:: self.step] @ DOWN)
+        return np.where(np.isfinite(pixels), pixels, -_AWAY)
 
     @cached_property
     def paths(self) -> Paths:
@@ -408,16 +408,16 @@ class _Labelling:
     def links(self) -> tuple[tuple[frozenset[str], Loop], ...]:
         """The links, springs and dampers: the joints of each, and its axis or its sides (n, sides, 2)."""
         figure, places = self.setting.figure, self.paths.places
-        found = []
+        links = []
         for body in figure.bodies:
             corners = self._corners(body)
             ring = [*corners, corners[0]] if len(corners) > 2 else corners
             sides = [(places[one], places[other]) for one, other in pairwise(ring)]
-            found.append((frozenset(body.joints), self._stack(sides)))
+            links.append((frozenset(body.joints), self._stack(sides)))
         for strut in figure.struts:
             ends = [(places[strut.between[0]], places[strut.between[1]])]
-            found.append((frozenset(strut.between), self._stack(ends)))
-        return tuple(found)
+            links.append((frozenset(strut.between), self._stack(ends)))
+        return tuple(links)
 
     def _corners(self, body: Body) -> list[str]:
         """Return the joints at the corners of a body's outline, in their order round it."""
@@ -572,7 +572,7 @@ class _Labelling:
         centred = CentrePairs(figure).at_joints if setting.look.centres else {}
         apart = _apart_from([*places], places)
         small = setting.layout.small_size
-        for name in figure.shown:
+        for name in figure.in_view:
             if name in centred:
                 label = _label(setting, ", ".join(centred[name]), small, "warning", f"centre:{name}")
                 families, middles = self._round(name, label.size, small)
@@ -602,7 +602,7 @@ class _Labelling:
             block = max(_BLOCK * setting.gauge.bar, rail_reach(setting, name) + setting.gauge.bar)
             radii += [block + gap] if block < bar + line else []
         turned = 0.02 * np.abs(np.angle(_ROUND / _BEST))
-        found, places = list[Anchors](), list[Loop]()
+        anchors, places = list[Anchors](), list[Loop]()
         frames = [(name, name)]
         if self.moment is None:
             frames += [
@@ -626,9 +626,9 @@ class _Labelling:
             rim = np.where(reach > bar + line, radii[-1] - gap, bar)
             near = far <= rim + max(_FARTHEST * line, 0.5 * size[0] + 0.2 * line)
             if near.any():
-                found.append(some_of(family, near))
+                anchors.append(some_of(family, near))
                 places.append(middles[:, near])
-        return found, np.concatenate(places, axis=1)
+        return anchors, np.concatenate(places, axis=1)
 
     @property
     def _called(self) -> list[Mapping[Body, str]]:
@@ -663,7 +663,7 @@ class _Labelling:
         middles = self._middles(label.size, families)
         off = off_lines(middles, own).min(axis=2)
         touch = off_rects(middles, label.size, own).min(axis=2) - half
-        inside = _held(middles, own) if own.shape[1] > 2 else np.zeros(middles.shape, np.bool_)
+        inside = _inside(middles, own) if own.shape[1] > 2 else np.zeros(middles.shape, np.bool_)
         off = np.where(inside, 0.0, off)
         faults = ~inside & (touch > _TOUCHES * label.line)
         near = _bounds(middles).inset(-max(float(off.max()), self.setting.gauge.bar))
@@ -671,7 +671,7 @@ class _Labelling:
             if names != joints and near.meets(bounds):
                 other = off_lines(middles, sides).min(axis=2)
                 if sides.shape[1] > 2:
-                    other = np.where(_held(middles, sides), 0.0, other)
+                    other = np.where(_inside(middles, sides), 0.0, other)
                 else:  # in a plate, but on a bar before it: it would name that
                     faults |= inside & (other < self.setting.gauge.bar)
                 faults |= other < off - 0.5
@@ -805,9 +805,9 @@ class _Labelling:
             at_bar = self._beside(at, head, (one.begin, one.end), setting.gauge.bar + 0.2 * line, _AT_BAR)
             families.append(at_bar)
             drawn += [MeasureLine(one.frame, one.begin, one.begin, 0.0)] * len(at_bar.way)
-        found = self._wanted(label, families, drawn=drawn)
-        return found._replace(
-            choice=found.choice._replace(price=found.choice.price + self._across(found.choice.lines))
+        wanted = self._wanted(label, families, drawn=drawn)
+        return wanted._replace(
+            choice=wanted.choice._replace(price=wanted.choice.price + self._across(wanted.choice.lines))
         )
 
     def _across(self, lines: Loop | None) -> NDArray[np.float64]:
@@ -817,11 +817,11 @@ class _Labelling:
         points = [begin + share * (end - begin) for share in (0.1, 0.3, 0.5, 0.7, 0.9)]
         cost = np.zeros(begin.shape[1])
         if self.moment is not None:
-            joints = [complex(self.paths.places[name][0]) for name in self.setting.figure.shown]
+            joints = [complex(self.paths.places[name][0]) for name in self.setting.figure.in_view]
             corners = np.array(hull(joints))
             ring = np.stack([corners, np.roll(corners, -1)], axis=1)[None]
             for point in points if len(corners) > 2 else ():
-                cost += _ACROSS / len(points) * _held(point, ring).mean(axis=0)
+                cost += _ACROSS / len(points) * _inside(point, ring).mean(axis=0)
         if self.links:
             sides = np.concatenate([sides for _, sides in self.links], axis=1)
             first = np.cumsum([0, *(sides.shape[1] for _, sides in self.links)])[:-1]
@@ -900,7 +900,7 @@ class _Labelling:
 
     def _wanted_arrows(self) -> list[tuple[str, Alternatives]]:
         """Return the places of the names of arrows, by what they name."""
-        found, line = [], self.setting.layout.small_size
+        wanted, line = [], self.setting.layout.small_size
         for kind in self.arrows:
             for number, (symbol, foot, reach) in enumerate(self._seen(kind)):
                 size = _label(self.setting, symbol, line, "", "").size
@@ -912,8 +912,8 @@ class _Labelling:
                 most = 0.5 if self.moment is None else 0.0
                 choice = Alternatives(size, np.stack(columns, axis=1), price, None, None, hidden, most)
                 if not hidden.all():
-                    found.append((vector_of(symbol), choice))
-        return found
+                    wanted.append((vector_of(symbol), choice))
+        return wanted
 
     def _led(self, left: Sequence[_Wanted], placed: Sequence[Label]) -> tuple[list[Label], list[_Wanted]]:
         """Give labels of a still without a place one farther off, with a leader; return those still without.
@@ -992,15 +992,15 @@ def centre_gap(setting: DrawSetting) -> float:
 
 def _apart_from(names: Sequence[str], places: Mapping[str, Loop]) -> dict[str, list[str]]:
     """Return for each joint the others that do not always lie where it does."""
-    found: dict[str, list[str]] = {name: [] for name in names}
+    others: dict[str, list[str]] = {name: [] for name in names}
     for one, other in combinations(names, 2):
         if np.abs(places[one] - places[other]).max() > 0.5:
-            found[one].append(other)
-            found[other].append(one)
-    return found
+            others[one].append(other)
+            others[other].append(one)
+    return others
 
 
-def _held(points: Loop, sides: Loop) -> NDArray[np.bool_]:
+def _inside(points: Loop, sides: Loop) -> NDArray[np.bool_]:
     """Return whether points (n, k) lie in a polygon given by its sides (n, m, 2), by the even-odd rule."""
     x, y = points.real[:, :, None], points.imag[:, :, None]
     begin, end = sides[:, None, :, 0], sides[:, None, :, 1]

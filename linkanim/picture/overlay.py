@@ -247,7 +247,7 @@ class Quantities:
 
     rows: tuple[tuple[str, str], ...]
     chosen: int
-    sieve: str = ""
+    typed: str = ""
     hint: str = ""
     pointed: int | None = None
     title: str = "Quantities"
@@ -275,21 +275,21 @@ class OwnFile(NamedTuple):
         return self.name.removesuffix(".toml")
 
 
-def sifted(texts: Mapping[Key, tuple[str, ...]], sieve: str) -> tuple[Key, ...]:
-    """Return the keys whose texts have all the sieve's words, the best ones first.
+def filtered(texts: Mapping[Key, tuple[str, ...]], typed: str) -> tuple[Key, ...]:
+    """Return the keys whose texts have all the typed words, the best ones first.
 
     The best is the one whose first text is what was typed; then come those with words that begin so. First of
     either are those whose first text has all the words, then those whose first two have them, and so on, each
     in the order of `texts`.
     """
-    if not (words := sieve.casefold().split()):
+    if not (words := typed.casefold().split()):
         return tuple(texts)
-    found = [(key, [text.casefold() for text in several]) for key, several in texts.items()]
+    rows = [(key, [text.casefold() for text in several]) for key, several in texts.items()]
     for word in words:
-        found = [(key, several) for key, several in found if any(word in text for text in several)]
+        rows = [(key, several) for key, several in rows if any(word in text for text in several)]
 
     def rank(several: list[str]) -> int:
-        if several[0].replace("-", " ").split() == sieve.casefold().replace("-", " ").split():
+        if several[0].replace("-", " ").split() == typed.casefold().replace("-", " ").split():
             return 0
         return 1 + max(next(n for n, text in enumerate(several) if word in text) for word in words)
 
@@ -300,7 +300,7 @@ def sifted(texts: Mapping[Key, tuple[str, ...]], sieve: str) -> tuple[Key, ...]:
     def order(several: list[str]) -> tuple[bool, bool, int]:
         return rank(several) > 0, is_within(several), rank(several)
 
-    return tuple(key for key, several in sorted(found, key=lambda one: order(one[1])))
+    return tuple(key for key, several in sorted(rows, key=lambda one: order(one[1])))
 
 
 def searched(entry: Scene | str) -> tuple[str, str, str]:
@@ -321,7 +321,7 @@ class Browsing:
     entries: tuple[Scene | str, ...]
     chosen: int
     since: int
-    sieve: str = ""
+    typed: str = ""
     top: int = 0
     own: tuple[OwnFile, ...] = ()
 
@@ -335,7 +335,7 @@ class Browsing:
 
     @property
     def nothing(self) -> str:
-        """What is said where the sieve leaves nothing."""
+        """What is said where nothing has the typed words."""
         return "no title or chapter contains that"
 
     def texts(self, place: int) -> tuple[str, str, str]:
@@ -343,21 +343,21 @@ class Browsing:
         return searched(self.entries[place])
 
     @cached_property
-    def found(self) -> tuple[int, ...]:
-        """The places of the mechanisms and files that have all the sieve's words, the best ones first."""
+    def matches(self) -> tuple[int, ...]:
+        """The places of the mechanisms and files that have all the typed words, the best ones first."""
         files = ((one.title, one.written, MINE) for one in self.own)
         texts = dict(enumerate((*map(self.texts, range(len(self.entries))), *files)))
-        return sifted({NEW: (NEW_TITLE,), **texts} if self.has_new else texts, self.sieve)
+        return filtered({NEW: (NEW_TITLE,), **texts} if self.has_new else texts, self.typed)
 
     def file_at(self, place: int) -> OwnFile | None:
         """Return the file at a place; None where there is a mechanism, or nothing."""
         behind = place - len(self.entries)
         return self.own[behind] if 0 <= behind < len(self.own) else None
 
-    def sifted(self, sieve: str) -> Self:
-        """Return the shelf with another sieve, and the best of what is found chosen."""
-        other = replace(self, sieve=sieve, top=0)
-        return replace(other, chosen=(*other.found, self.chosen)[0]) if sieve else other
+    def filtered(self, typed: str) -> Self:
+        """Return the shelf with other letters typed, and the best of what is found chosen."""
+        other = replace(self, typed=typed, top=0)
+        return replace(other, chosen=(*other.matches, self.chosen)[0]) if typed else other
 
 
 class Shelf(NamedTuple):
@@ -503,7 +503,7 @@ class Lane(NamedTuple):
     well: bool
 
 
-class Told(NamedTuple):
+class HoverText(NamedTuple):
     """The words about a thing under the mouse, `at` a place of the scene; a `joint` also has its arrows."""
 
     lines: tuple[str, ...]
@@ -533,8 +533,8 @@ class Overlay:
     Answers that are places have `spots` on the picture, in their order; a ram that is followed has its
     `lane`. The joints `handles` can be dragged. With `noted` the HUD says that a limit or a change point is
     near. `chip` answers a key, `hint` says which keys to press, `watch` what to watch for. `measured` are the
-    lines of the chosen dimension and of those beside it, `glow` is the joint under the mouse, `told` the
-    words about the thing there, `instant` the phase that the mouse points at on a curve; with `grip` the
+    lines of the chosen dimension and of those beside it, `glow` is the joint under the mouse, `hover_text`
+    has words about the thing there, `instant` the phase that the mouse points at on a curve; with `grip` the
     chart's cursor has a grip. `shutter` is how white the picture is, in eighths. The `bar` has the commands;
     `tools` are those of a sheet, beside a list of dimensions. In a `swing` the linkage is between two
     closures. The share `shut` of an open list is still beyond the window's edge. `hover` is what the mouse is
@@ -568,7 +568,7 @@ class Overlay:
     watch: Fading | None = None
     measured: tuple[DimensionLine, ...] = ()
     glow: str | None = None
-    told: Told | None = None
+    hover_text: HoverText | None = None
     instant: float | None = None
     grip: bool = False
     shutter: int = 0

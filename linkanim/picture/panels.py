@@ -57,7 +57,7 @@ def foot(board: Board, said: tuple[str, bool]) -> tuple[pygame.Surface, tuple[fl
     return sheet, (slot.x + (slot.width - sheet.get_width()) / 2, slot.bottom - below - high)
 
 
-def said_in(board: Board, overlay: Overlay) -> tuple[str, bool] | None:
+def words_at_foot(board: Board, overlay: Overlay) -> tuple[str, bool] | None:
     """Return what is said at the foot, and whether it is an answer.
 
     The name of the command under the mouse comes first, then a toast, an answer to a key, and hints.
@@ -69,8 +69,8 @@ def said_in(board: Board, overlay: Overlay) -> tuple[str, bool] | None:
         return overlay.toast, True
     if overlay.chip and overlay.chip.eighths > 0:
         return overlay.chip.text, True
-    if overlay.told:
-        return _SEPARATOR.join(overlay.told.lines), False
+    if overlay.hover_text:
+        return _SEPARATOR.join(overlay.hover_text.lines), False
     for words in (overlay.watch, overlay.hint):
         if words and words.eighths > 0:
             return _shortened(board, words.text), False
@@ -260,15 +260,15 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
 
 def help_lines(board: Board, shown: tuple[Help, int]) -> tuple[Target, ...]:
     """Return the places of the lines on the help's sheet, each with its keys."""
-    laid, found, keys = _help_laid(board, shown), [], ""
+    laid, targets, keys = _help_laid(board, shown), [], ""
     for column, left in _help_columns(laid):
         wide = column.keys + column.does + _HELP_GAP * laid.size
         for n, line in enumerate(column.lines):
             keys = line.keys or keys  # the text of a line may be broken; only its first part has the keys
             if line.does and not line.heading:
                 top = (0.9 + (n - 0.12) * _STEP) * laid.size
-                found.append(Target("line", Rect(left, top, wide, _STEP * laid.size), keys))
-    return tuple(found)
+                targets.append(Target("line", Rect(left, top, wide, _STEP * laid.size), keys))
+    return tuple(targets)
 
 
 def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
@@ -380,7 +380,7 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     lines = max(len(rows), 1) + len(hint) + _QUANTITY_FRAME
     sheet = board.sheet(wide, STEP * size * lines)
     count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
-    typed = (f"{shown.sieve}_", board.theme.velocity) if shown.sieve else (shown.title, board.theme.ink)
+    typed = (f"{shown.typed}_", board.theme.velocity) if shown.typed else (shown.title, board.theme.ink)
     board.head(sheet, size, typed[0], count, typed[1])
     places = [(row, (0.9 + STEP * (n + 1)) * size) for n, row in enumerate(rows)]
     for row, y in places:
@@ -506,12 +506,12 @@ class Panels:
         targets += listed
         targets += self._list(surface, quantity_list, quantity_rows, overlay.quantities, overlay.shut)
         if overlay.help:
-            left = self._beside(self._keep(edit_list, overlay.panel)) if overlay.panel else 0
+            left = self._width_at_left(self._keep(edit_list, overlay.panel)) if overlay.panel else 0
             drawn, place = self._helped(overlay.help, left)
             surface.blit(drawn, (place.x, place.y))
             lines = self._keep(help_lines, (overlay.help, self.board.layout.size[0] - left))
             targets += [Target("help", place), *(one.moved(place.x, place.y) for one in lines)]
-        if said := said_in(self.board, overlay):
+        if said := words_at_foot(self.board, overlay):
             drawn, at = self._keep(foot, said)
             surface.blit(drawn, (round(at[0]), round(at[1])))
             if said == (overlay.toast, True):
@@ -544,17 +544,17 @@ class Panels:
             surface.blit(drawn, (left - round(shut * (left + wide)), top))
         else:
             surface.blit(drawn, (left, top + round(shut * (surface.get_height() - top))))
-        found = [] if make is game_panel else [Target("list", Rect(left, top, wide, high))]
+        targets = [] if make is game_panel else [Target("list", Rect(left, top, wide, high))]
         for row, begin, end in self._keep(rows_of, shown):
-            found.append(Target("row", Rect(left, top + begin, wide, end - begin), row))
+            targets.append(Target("row", Rect(left, top + begin, wide, end - begin), row))
         if make is quantity_list:
             track = scroll_track(self.board, shown)
-            found += [Target("track", track, len(shown.rows)).moved(left, top)] if track else []
+            targets += [Target("track", track, len(shown.rows)).moved(left, top)] if track else []
             boxes = Rect(left, top, _BOX * self.board.layout.small_size, high)
-            found += [Target("boxes", boxes)] if shown.boxes else []
-        return found
+            targets += [Target("boxes", boxes)] if shown.boxes else []
+        return targets
 
-    def _beside(self, drawn: pygame.Surface) -> int:
+    def _width_at_left(self, drawn: pygame.Surface) -> int:
         """Return the width that a list takes at the window's top left."""
         return self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
 

@@ -45,15 +45,15 @@ SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 def lack(file: str) -> str | None:
     """Return in a sentence why a photograph is left out; None where it can be shown."""
-    found = _read(file, _stamp(file))
-    return f"{found}; the sheet goes on without the photograph" if isinstance(found, str) else None
+    photograph = _read(file, _stamp(file))
+    return f"{photograph}; the sheet goes on without the photograph" if isinstance(photograph, str) else None
 
 
 def refuse_lacking(file: str) -> None:
     """Raise BadInput with the reason for a photograph that cannot be shown."""
-    found = _read(file, _stamp(file))
-    if isinstance(found, str):
-        raise BadInput(found)
+    photograph = _read(file, _stamp(file))
+    if isinstance(photograph, str):
+        raise BadInput(photograph)
 
 
 @frozen
@@ -72,7 +72,7 @@ class Photograph:
             return
         (width, height), (high, wide) = surface.get_size(), picture.shape
         scale = wide / self.photo.width
-        corner = self.view.place(self.photo.place)
+        corner = self.view.pixel(self.photo.place)
         across = np.arange(width) - corner.real
         up = corner.imag - np.arange(height)[:, None]
         turn = rect(1.0, -self.photo.turn) * scale / self.view.scale
@@ -89,16 +89,16 @@ Stamp = tuple[int, int] | str
 
 def _stamp(file: str) -> Stamp:
     try:
-        found = Path(file).stat()
+        status = Path(file).stat()
     except (FileNotFoundError, NotADirectoryError):
         return "is not there"
     except (OSError, ValueError) as error:
         return f"cannot be read: {(getattr(error, 'strerror', None) or str(error)).lower()}"
-    if not stat.S_ISREG(found.st_mode):
+    if not stat.S_ISREG(status.st_mode):
         return f"is no picture; a photograph is one of {', '.join(SUFFIXES)}"
-    if found.st_size > _MOST_BYTES:
+    if status.st_size > _MOST_BYTES:
         return f"is larger than {_MOST_BYTES // 1_000_000} MB; save it smaller"
-    return found.st_mtime_ns, found.st_size
+    return status.st_mtime_ns, status.st_size
 
 
 @lru_cache(maxsize=4)

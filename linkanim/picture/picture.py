@@ -113,8 +113,12 @@ class Picture:
         goal, look = self._goal, self.look
         subject = subject_of(placed or goal, ghost=look.ghost)
         asked = wanted(placed or goal, self.size, look, docked, self._moment, also)
-        found = composed(subject, asked, look)
-        return found if placed in (None, goal) else found.held(subject_of(goal, ghost=look.ghost))
+        composition = composed(subject, asked, look)
+        return (
+            composition
+            if placed in (None, goal)
+            else composition.while_dragged(subject_of(goal, ghost=look.ghost))
+        )
 
     @property
     def about(self) -> tuple[float, float]:
@@ -196,8 +200,8 @@ class Picture:
         yield from self._framed()
         for polygon in self._polygons:
             stands = overlay.paused and self._moment is None
-            found = (polygon.standing(pose.phase) if stands else polygon).group(pose)
-            yield found.shifted(*self._aside) if any(self._aside) else found
+            drawn = (polygon.standing(pose.phase) if stands else polygon).group(pose)
+            yield drawn.shifted(*self._aside) if any(self._aside) else drawn
         yield from self._on_chart(pose, grasped=overlay.grip)
         if overlay.band:
             from linkanim.picture.build_sheet import worded
@@ -241,7 +245,7 @@ class Picture:
 
         shown = shown_at(self._goal, steps, pose.phase)
         pen = pen_for(self.layout, self.type, self.theme)
-        marks = [self._said_once(mark, pose) for step in shown.steps for mark in step.marks]
+        marks = [self._labelled_once(mark, pose) for step in shown.steps for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
         facts = f"step {len(shown.steps)} of {shown.total}"
         facts = facts if self._moment is not None else f"{facts} · F7 goes on"
@@ -249,7 +253,7 @@ class Picture:
         yield worded(self.drawing.setting, shown.steps[-1].words, [facts], beside=beside)
         yield from self._slider(leading)
 
-    def _said_once(self, mark: Mark, pose: Pose) -> Mark:
+    def _labelled_once(self, mark: Mark, pose: Pose) -> Mark:
         """Return a mark of a point without its label where the joint there has the same letter already."""
         name = normalize("NFKC", mark.label)  # subscripts as plain digits
         place = (
@@ -432,7 +436,7 @@ class Picture:
         if overlay.construction:
             yield from self._constructed(overlay.construction, pose, overlay.slider)
         for shown in overlay.measured:
-            at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
+            at, head = map(self.view.pixel, (pose.position[name] for name in shown.frame))
             span = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * span for place in (shown.begin, shown.end))
             yield from measure(self.drawing.setting, begin, end, shown)
@@ -446,26 +450,26 @@ class Picture:
 
     def _pointed(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield what the mouse points at: an instant on curves and chart, and a thing's card of words."""
-        if overlay.instant is None and overlay.told is None:
+        if overlay.instant is None and overlay.hover_text is None:
             return
-        from linkanim.picture import told
+        from linkanim.picture import hover
 
         if overlay.instant is not None:
             there = self.scene.pose(overlay.instant, self._order, speed=pose.input_speed)
             curves = self.scene.trace if self.look.trace or self.look.ink else ()
-            places = [self.view.place(there.position[joint]) for joint in curves]
-            lights = told.instant(self.drawing.setting, places)
+            places = [self.view.pixel(there.position[joint]) for joint in curves]
+            lights = hover.instant(self.drawing.setting, places)
             yield from self._within([Group("instant", list(lights), over=True)])
             if self._chart:
                 yield grouped("instant-read", self._chart.cursor(there))
-        if overlay.told:
-            yield from told.told_arrows(
-                self.drawing.setting, pose, overlay.told, self._greatest(overlay.told.joint)
+        if overlay.hover_text:
+            yield from hover.hover_arrows(
+                self.drawing.setting, pose, overlay.hover_text, self._greatest(overlay.hover_text.joint)
             )
 
     def _greatest(self, joint: str) -> tuple[float, float] | None:
         """Return the greatest speed and acceleration of a joint; cached for the last joint."""
-        from linkanim.picture.told import greatest
+        from linkanim.picture.hover import greatest
 
         if joint and (self._fastest is None or self._fastest[0] != joint):
             self._fastest = joint, greatest(self.figure.cycle, joint)

@@ -106,15 +106,15 @@ class _LabelSweep(NamedTuple):
 
     def met_by(self, other: _LabelSweep, margin: float) -> Bools:
         """Return the moments at which another rectangle comes nearer to it than a margin."""
-        found = (other.right + margin > self.left) & (other.left - margin < self.right)
-        found &= (other.bottom + margin > self.top) & (other.top - margin < self.bottom)
-        return found[:, 0]
+        meets = (other.right + margin > self.left) & (other.left - margin < self.right)
+        meets &= (other.bottom + margin > self.top) & (other.top - margin < self.bottom)
+        return meets[:, 0]
 
     def _meets(self, left: Floats, right: Floats, top: Floats, bottom: Floats, more: Floats) -> Bools:
         more = more + 1.0
-        found = (right + more > self.left) & (left - more < self.right)
-        found &= (bottom + more > self.top) & (top - more < self.bottom)
-        return np.asarray(found.any(axis=0))
+        meets = (right + more > self.left) & (left - more < self.right)
+        meets &= (bottom + more > self.top) & (top - more < self.bottom)
+        return np.asarray(meets.any(axis=0))
 
 
 class Obstacles(NamedTuple):
@@ -162,7 +162,7 @@ def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
     """Return the number of the place that each label takes; None for a label without a place."""
     labels, faults = [one.label for one in known], [one.faults.copy() for one in known]
     free = [int((~fault.any(axis=0)).sum()) for fault in faults]
-    found: list[int | None] = [None] * len(labels)
+    choice: list[int | None] = [None] * len(labels)
     order = sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n))
     for turn, n in enumerate(order, start=1):
         share = _share(labels[n], faults[n])
@@ -171,14 +171,14 @@ def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
             continue
         every = faults[n].mean(axis=0)
         cost = np.where(allowed, known[n].price + _FAULTY * share + every, np.inf)
-        best = found[n] = int(cost.argmin())
+        best = choice[n] = int(cost.argmin())
         mine = labels[n].at(best)
         swept = _LabelSweep.by(mine)
         for other in order[turn:]:
             near = known[other].swept.met_by(swept, labels[other].gap + mine.size[1])
             if near.any():
                 faults[other][near] |= _hit_by(labels[other].during(near), mine.during(near))
-    return found
+    return choice
 
 
 def grounded(
@@ -249,16 +249,16 @@ def _covered(label: Alternatives, ground: Obstacles) -> Floats:
     every = max(len(label.places) // _COVERING_MOMENTS, 1)
     places, bars = label.places[::every], ground.bars[::every]
     near = _LabelSweep.by(label._replace(places=places, lines=None)).meets(bars, ground.thick)
-    found = crossed(places, label.size, bars[:, near], ground.thick[near])
-    return np.asarray(found.sum(axis=2).mean(axis=0), np.float64)
+    covered = crossed(places, label.size, bars[:, near], ground.thick[near])
+    return np.asarray(covered.sum(axis=2).mean(axis=0), np.float64)
 
 
 def _overlap(places: Loop, size: Size, others: Loop, sizes: Floats) -> Bools:
     """Return whether rectangles at places (n, k) overlap others (n, m), as (n, k, m)."""
     away = places[:, :, None] - others[:, None]
     reach = (np.asarray(size) + sizes) / 2
-    found: Bools = (np.abs(away.real) < reach[:, 0] - _SURE) & (np.abs(away.imag) < reach[:, 1] - _SURE)
-    return found
+    overlap: Bools = (np.abs(away.real) < reach[:, 0] - _SURE) & (np.abs(away.imag) < reach[:, 1] - _SURE)
+    return overlap
 
 
 def _off(places: Loop, size: Size, points: Loop) -> Floats:
@@ -266,8 +266,8 @@ def _off(places: Loop, size: Size, points: Loop) -> Floats:
     away = points[:, None] - places[:, :, None]
     x = np.maximum(np.abs(away.real) - size[0] / 2, 0.0)
     y = np.maximum(np.abs(away.imag) - size[1] / 2, 0.0)
-    found: Floats = np.hypot(x, y)
-    return found
+    distance: Floats = np.hypot(x, y)
+    return distance
 
 
 def crossed(places: Loop, size: Size, lines: Loop, halves: Floats) -> Bools:
@@ -279,12 +279,12 @@ def crossed(places: Loop, size: Size, lines: Loop, halves: Floats) -> Bools:
     arm = ((lines[..., 1] - lines[..., 0]) / 2)[:, None]
     wide, high = size[0] / 2 + halves, size[1] / 2 + halves
     across = np.abs(middle.real * arm.imag - middle.imag * arm.real)
-    found: Bools = (
+    crossed: Bools = (
         (np.abs(middle.real) < wide + np.abs(arm.real))
         & (np.abs(middle.imag) < high + np.abs(arm.imag))
         & (across < wide * np.abs(arm.imag) + high * np.abs(arm.real) + _SURE)
     )
-    return found
+    return crossed
 
 
 def _run_over(lines: Loop, others: Loop, sizes: Floats) -> Bools:
@@ -293,9 +293,9 @@ def _run_over(lines: Loop, others: Loop, sizes: Floats) -> Bools:
     arm = ((lines[..., 1] - lines[..., 0]) / 2)[:, :, None]
     wide, high = sizes[:, 0] / 2 + 1.0, sizes[:, 1] / 2 + 1.0
     across = np.abs(middle.real * arm.imag - middle.imag * arm.real)
-    found = (np.abs(middle.real) < wide + np.abs(arm.real)) & (np.abs(middle.imag) < high + np.abs(arm.imag))
-    found &= across < wide * np.abs(arm.imag) + high * np.abs(arm.real)
-    return np.asarray(found.any(axis=2))
+    meets = (np.abs(middle.real) < wide + np.abs(arm.real)) & (np.abs(middle.imag) < high + np.abs(arm.imag))
+    meets &= across < wide * np.abs(arm.imag) + high * np.abs(arm.real)
+    return np.asarray(meets.any(axis=2))
 
 
 def _apart(points: ArrayLike, lines: Loop) -> Floats:
@@ -304,8 +304,8 @@ def _apart(points: ArrayLike, lines: Loop) -> Floats:
     way = end - begin
     square = np.maximum((way * way.conj()).real, 1e-12)
     share = np.clip(((at - begin) * way.conj()).real / square, 0.0, 1.0)
-    found: Floats = np.abs(at - begin - share * way)
-    return found
+    distance: Floats = np.abs(at - begin - share * way)
+    return distance
 
 
 def _between(lines: Loop, others: Loop) -> Floats:
@@ -343,6 +343,6 @@ def off_rects(places: Loop, size: Size, lines: Loop) -> Floats:
     )
     nearest = np.min([_apart(corners[:, :, None, n], lines[:, None]) for n in range(4)], axis=0)
     ends = np.minimum(_off(places, size, lines[..., 0]), _off(places, size, lines[..., 1]))
-    found = np.minimum(nearest, ends)
-    found[crossed(places, size, lines, np.zeros(lines.shape[1]))] = 0.0
-    return np.asarray(found, np.float64)
+    distance = np.minimum(nearest, ends)
+    distance[crossed(places, size, lines, np.zeros(lines.shape[1]))] = 0.0
+    return np.asarray(distance, np.float64)

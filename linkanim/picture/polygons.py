@@ -110,18 +110,18 @@ class Polygon:
         words, per = _TITLES[self.order]
         scale = self.scale(pose.input_speed)
         pole = self.pole(pose.input_speed)
-        found = self._arrows(pose, pole, scale)
+        drawn = self._arrows(pose, pole, scale)
         dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
-        symbols, left = self._symbols(found, pole)
-        layers, captions = [*self._drawn(found), dot], [self._title, *symbols]
+        symbols, left = self._symbols(drawn, pole)
+        layers, captions = [*self._drawn(drawn), dot], [self._title, *symbols]
         if scale > 0 and left and self.shown is not None and self.lists:
             every = self._rows(left, scale, per)
             wide = self._widest(every)
-            if not self.aside and not self._corner(every, wide, found, symbols)[1]:
+            if not self.aside and not self._corner(every, wide, drawn, symbols)[1]:
                 return replace(self, aside=min(wide + self.pen.small, 0.5 * self.rect.width)).group(pose)
             for most in range(len(every), min(len(left), 2) - 1, -1):
                 rows = self._rows(left, scale, per, most)
-                corner, free = self._corner(rows, self._widest(rows), found, symbols)
+                corner, free = self._corner(rows, self._widest(rows), drawn, symbols)
                 if free:
                     captions += self._listed(rows, corner)
                     break
@@ -131,7 +131,7 @@ class Polygon:
             bar, meaning = self._bar(scale, per)
             layers.append(bar)
             captions.append(meaning)
-        if not found:
+        if not drawn:
             at_rest = np.isfinite([side.end for side in self.figure.polygon_sides(pose, self.order)]).all()
             why = "all at rest" if at_rest else "unbounded here"
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
@@ -172,8 +172,8 @@ class Polygon:
         box, room = self._box, self._room
         spans = [(room.width, box.right - box.left), (room.height, box.high - box.low)]
         shares = [have / need for have, need in spans if need > 0]
-        found = min(shares) / faster if shares and faster > 0 else 0.0
-        return found if 0.0 < found < _LARGEST and self.rect.width >= 1.0 else 0.0
+        scale = min(shares) / faster if shares and faster > 0 else 0.0
+        return scale if 0.0 < scale < _LARGEST and self.rect.width >= 1.0 else 0.0
 
     def pole(self, speed: float) -> complex:
         """Return where the pole stands, so that all poses of the cycle have room."""
@@ -206,12 +206,12 @@ class Polygon:
         sides = self.figure.polygon_sides(pose, self.order)
         if not np.isfinite([side.end for side in sides]).all():
             return []
-        found = [
+        arrows_drawn = [
             Arrow(side, pole + scale * side.begin.conjugate(), scale * (side.end - side.begin).conjugate())
             for side in sides
         ]
-        whole = [arrow for arrow in found if arrow.is_absolute]
-        parts = [arrow for arrow in found if not any(arrow.is_on(other) for other in whole)]
+        whole = [arrow for arrow in arrows_drawn if arrow.is_absolute]
+        parts = [arrow for arrow in arrows_drawn if not any(arrow.is_on(other) for other in whole)]
         return [arrow for arrow in (*whole, *parts) if abs(arrow.reach) > _NOTHING * self._room.width]
 
     def _tracks(
@@ -223,24 +223,24 @@ class Polygon:
         """
         sides = sorted(self.figure.polygon_sides(motion, self.order), key=lambda one: one.sort != "absolute")
         count = np.size(motion.phase)
-        found: dict[tuple[str, Sort], tuple[Loop, Loop]] = {}
+        tracks: dict[tuple[str, Sort], tuple[Loop, Loop]] = {}
         bounded = np.ones(count, np.bool_)
         for side in sides:
             begin, end = (np.broadcast_to(one, (count,)) for one in (side.begin, side.end))
             bounded &= np.isfinite(end)
             foot, reach = pole + scale * np.conj(begin), scale * np.conj(end - begin)
-            found.setdefault((side.symbol, side.sort), (foot, reach))
-        whole = [track for (_, sort), track in found.items() if sort == "absolute"]
-        for key, (foot, reach) in found.items():
+            tracks.setdefault((side.symbol, side.sort), (foot, reach))
+        whole = [track for (_, sort), track in tracks.items() if sort == "absolute"]
+        for key, (foot, reach) in tracks.items():
             drawn = bounded & (np.abs(reach) > _NOTHING * self._room.width)
             for other in whole if key[1] != "absolute" else ():
                 drawn &= np.abs(foot - other[0]) + np.abs(reach - other[1]) >= _COINCIDING
-            found[key] = np.where(drawn, foot, _NOWHERE), np.where(drawn, reach, 0)
-        return found
+            tracks[key] = np.where(drawn, foot, _NOWHERE), np.where(drawn, reach, 0)
+        return tracks
 
-    def _drawn(self, found: list[Arrow]) -> Iterator[Layer]:
+    def _drawn(self, drawn: list[Arrow]) -> Iterator[Layer]:
         """Yield the arrows, relative ones first."""
-        for arrow in sorted(found, key=lambda arrow: arrow.is_absolute):
+        for arrow in sorted(drawn, key=lambda arrow: arrow.is_absolute):
             width = (1.6 if arrow.is_absolute else 1.1) * self.pen.line
             yield Layer(self._colour(arrow.side.sort), arrows([arrow.foot], [arrow.reach], width))
 
@@ -250,7 +250,7 @@ class Polygon:
             return theme.velocity if self.order == 1 else theme.acceleration
         return theme.traces[0] if sort in _GUIDED else theme.dim
 
-    def _symbols(self, found: list[Arrow], pole: complex) -> tuple[list[Caption], list[Arrow]]:
+    def _symbols(self, drawn: list[Arrow], pole: complex) -> tuple[list[Caption], list[Arrow]]:
         """Return the name of the pole and the symbols beside their vectors; and vectors that have none.
 
         A symbol stands on one side of its vector all through the cycle. Where it would lie on another there,
@@ -265,7 +265,7 @@ class Polygon:
             [*self._words, _rect(at, size)],
             [],
         )
-        for arrow in sorted(found, key=lambda arrow: (not arrow.is_absolute, -abs(arrow.reach))):
+        for arrow in sorted(drawn, key=lambda arrow: (not arrow.is_absolute, -abs(arrow.reach))):
             symbol = arrow.side.symbol
             size = (float(pen.type.width(symbol, small)), float(small))
             way_ = self._placing.sides.get((symbol, arrow.side.sort))
@@ -354,13 +354,13 @@ class Polygon:
         return rows
 
     def _corner(
-        self, rows: list[tuple[str, Colour]], wide: float, found: list[Arrow], named: list[Caption]
+        self, rows: list[tuple[str, Colour]], wide: float, drawn: list[Arrow], named: list[Caption]
     ) -> tuple[Rect, bool]:
         """Return the corner for these rows in which least is drawn, and whether it is free."""
         rect, high = self.rect, _ROW * self.pen.small * len(rows)
         low, top = rect.bottom - high, rect.y + 2.4 * self.pen.text
         corners = [Rect(x, y, wide, high) for y in (low, top) for x in (rect.right - wide, rect.x)]
-        ends = [(arrow.foot, arrow.foot + arrow.reach) for arrow in found]
+        ends = [(arrow.foot, arrow.foot + arrow.reach) for arrow in drawn]
         busy = [line.around(self.pen.type) for line in named] + [*self._words]
         corners = corners[::2] if self.aside else corners
         places = np.array([[corner.middle for corner in corners]])

@@ -46,14 +46,14 @@ def theory(setting: DrawSetting, frames: Frames, *, held: bool) -> Group:
 
 def couplers(setting: DrawSetting, bodies: Sequence[Sequence[Point]]) -> Group:
     """Return a coupler in each pose, by its corners."""
-    ghosts = [np.array([setting.view.place(place) for place in body]) for body in bodies]
+    ghosts = [np.array([setting.view.pixel(place) for place in body]) for body in bodies]
     loops = [loop for one in ghosts for loop in stroke(one, 0.6 * _line(setting), closed=True)]
     return Group("couplers", [Layer(mixed(setting.theme.ground, setting.theme.background, 0.25), loops)])
 
 
-def axes(setting: DrawSetting, frames: Frames, taken: Taken, cursor: Point | None) -> Group:
+def axes(setting: DrawSetting, frames: Frames, selected: Taken, cursor: Point | None) -> Group:
     """Return the axes of poses with their numbers, and the keys' cursor."""
-    layers = [*_frames(setting, frames, taken, cursor)]
+    layers = [*_frames(setting, frames, selected, cursor)]
     return Group("poses", layers, [*_numbers(setting, frames)], over=True)
 
 
@@ -61,12 +61,12 @@ def _reach(setting: DrawSetting) -> float:
     return AXIS * NEAR * setting.layout.size[1]
 
 
-def _frames(setting: DrawSetting, frames: Frames, taken: Taken, cursor: Point | None) -> Iterator[Layer]:
+def _frames(setting: DrawSetting, frames: Frames, selected: Taken, cursor: Point | None) -> Iterator[Layer]:
     view, theme, reach, line = setting.view, setting.theme, _reach(setting), _line(setting)
     for n, (x, y, angle) in enumerate(frames):
-        at, along = view.place((x, y)), reach * cmath.exp(-1j * angle)
+        at, along = view.pixel((x, y)), reach * cmath.exp(-1j * angle)
         arms = np.array([along, -1j * _ACROSS * along])
-        if ("pose", n) == taken:
+        if ("pose", n) == selected:
             yield Layer(ORANGE, [at + disc(7 * line)], 0.45)
         yield Layer(theme.background, segments(np.array([at, at]), at + arms, 4 * line))
         yield Layer(theme.ink, arrows(np.array([at, at]), arms, 1.5 * line))
@@ -74,7 +74,7 @@ def _frames(setting: DrawSetting, frames: Frames, taken: Taken, cursor: Point | 
         yield Layer(theme.background, [at + disc(3.4 * line)])
         yield Layer(theme.ink, stroke(at + disc(3.4 * line), 1.3 * line, closed=True))
     if cursor:
-        at = view.place(cursor)
+        at = view.pixel(cursor)
         arms = 5 * line * np.array([1, 1j])
         yield Layer(theme.velocity, segments(at - arms, at + arms, 1.3 * line))
 
@@ -83,26 +83,26 @@ def _numbers(setting: DrawSetting, frames: Frames) -> Iterator[Caption]:
     size, reach = setting.layout.small_size, _reach(setting)
     halo = Halo(setting.theme.background, 0.14 * size)
     for n, (x, y, angle) in enumerate(frames, start=1):
-        at = setting.view.place((x, y)) - 0.45 * reach * cmath.exp(-1j * (angle + 0.6))
+        at = setting.view.pixel((x, y)) - 0.45 * reach * cmath.exp(-1j * (angle + 0.6))
         top = at.real, at.imag - 0.5 * size
         yield Caption(str(n), top, size, setting.theme.ink, "centre", strong=True, halo=halo)
 
 
-def grips(setting: DrawSetting, places: Iterable[Point], pins: Sequence[Point], taken: Taken) -> Group:
+def grips(setting: DrawSetting, places: Iterable[Point], pins: Sequence[Point], selected: Taken) -> Group:
     """Return pins that are asked for, and rings about the linkage's points that can be dragged."""
-    return Group("handles", [*_handles(setting, places, pins, taken)], over=True)
+    return Group("handles", [*_handles(setting, places, pins, selected)], over=True)
 
 
 def _handles(
-    setting: DrawSetting, places: Iterable[Point], pins: Sequence[Point], taken: Taken
+    setting: DrawSetting, places: Iterable[Point], pins: Sequence[Point], selected: Taken
 ) -> Iterator[Layer]:
     view, theme, line = setting.view, setting.theme, _line(setting)
     for place in places:
-        ring = view.place(place) + disc(5.5 * line)
+        ring = view.pixel(place) + disc(5.5 * line)
         yield Layer(theme.velocity, stroke(ring, 1.1 * line, closed=True))
     for n, place in enumerate(pins):
-        at = view.place(place)
-        if ("pin", n) == taken:
+        at = view.pixel(place)
+        if ("pin", n) == selected:
             yield Layer(ORANGE, [at + disc(8 * line)], 0.45)
         yield Layer(theme.velocity, [at + disc(5.5 * line)])
         yield Layer(theme.background, [at + disc(3.6 * line)])

@@ -64,14 +64,14 @@ def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
     """
     if charted is None or "," not in charted or charted in scene.quantities:
         return () if charted is None else (charted,)
-    found: list[str] = []
+    tokens: list[str] = []
     begun = ""
     for part in charted.split(","):
         begun = f"{begun},{part}" if begun else part.strip()
         if _own_token(scene, begun):
-            found.append(begun)
+            tokens.append(begun)
             begun = ""
-    return (*found, begun) if begun else tuple(found)
+    return (*tokens, begun) if begun else tuple(tokens)
 
 
 def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
@@ -177,12 +177,12 @@ def linear(low: float, high: float, *, most: int = 5, unit: str = "", least: int
     In degrees (`unit` "°") ticks lie at fractions of a turn; no other unit is written at ticks. Where there
     would be fewer than `least`, they are closer, even if they are then more than `most`.
     """
-    found = _ticks(low, high, most, unit)
+    axis = _ticks(low, high, most, unit)
     for closer in range(most + 1, 3 * max(most, least)):
-        if len(found) >= least:
+        if len(axis) >= least:
             break
-        found = _ticks(low, high, closer, unit)
-    return Axis(low, high, found)
+        axis = _ticks(low, high, closer, unit)
+    return Axis(low, high, axis)
 
 
 def _ticks(low: float, high: float, most: int, unit: str) -> tuple[tuple[float, str], ...]:
@@ -255,8 +255,8 @@ def unbounded_places(x: ArrayLike, values: ArrayLike) -> Floats:
     """Return where a curve goes to infinity: at each infinite value beside a finite one."""
     x, values = np.asarray(x, float), np.asarray(values, float)
     beside = np.pad(np.isfinite(values), 1)
-    found: Floats = x[np.isinf(values) & (beside[:-2] | beside[2:])]
-    return found
+    places: Floats = x[np.isinf(values) & (beside[:-2] | beside[2:])]
+    return places
 
 
 def round_step(span: float, most: int) -> float:

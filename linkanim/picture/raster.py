@@ -512,8 +512,8 @@ def _covered(surface: pygame.Surface, parts: Sequence[Shapes]) -> tuple[list[_Pi
 
 def _with_loops(layers: Iterable[Layer]) -> list[tuple[Layer, Outlines]]:
     """Return the layers that have loops, with these."""
-    found = ((layer, outlines_of(layer.loops)) for layer in layers)
-    return [(layer, outlines) for layer, outlines in found if outlines.counts]
+    outlined = ((layer, outlines_of(layer.loops)) for layer in layers)
+    return [(layer, outlines) for layer, outlines in outlined if outlines.counts]
 
 
 def _outlined(outlines: Sequence[Outlines], limits: Ints) -> tuple[Edges, _Boxes]:
@@ -590,10 +590,10 @@ def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
     begin, share, counts = first.place.take(runs), first.share.take(runs), length.take(runs)
     bounds = np.concatenate(([0], np.cumsum(counts)))[np.searchsorted(runs, first.bounds)]
     partly = np.repeat(share, counts) if share.min(initial=WHOLE) < WHOLE else share[:0]
-    return _Pixels(_places(begin, counts), partly, np.repeat(first.ink.take(runs), counts), bounds)
+    return _Pixels(_ranges(begin, counts), partly, np.repeat(first.ink.take(runs), counts), bounds)
 
 
-def _places(begin: Ints, counts: Ints) -> Ints:
+def _ranges(begin: Ints, counts: Ints) -> Ints:
     """Return consecutive numbers from each beginning on, as many as its count says."""
     after = np.cumsum(counts)
     steps = np.ones(int(counts.sum()), np.int64)

@@ -41,8 +41,8 @@ def directions(angles: ArrayLike) -> Directions:
     norm = half * half + 4.0
     turned = np.empty(angle.shape, np.complex128)
     turned.real, turned.imag = (4.0 - half * half) / norm, 4.0 * half / norm
-    found: Directions = turned * np.array([1, 1j, -1, -1j])[quarters.astype(np.int64) & 3]
-    return found
+    directions: Directions = turned * np.array([1, 1j, -1, -1j])[quarters.astype(np.int64) & 3]
+    return directions
 
 
 def folded(turn: complex, fold: int) -> complex:
@@ -64,8 +64,8 @@ def _turns(fold: int) -> tuple[complex, ...]:
 
 def lengths(vectors: Directions) -> NDArray[np.float64]:
     """Return the lengths of vectors x + yi."""
-    found: NDArray[np.float64] = np.sqrt(vectors.real * vectors.real + vectors.imag * vectors.imag)
-    return found
+    sizes: NDArray[np.float64] = np.sqrt(vectors.real * vectors.real + vectors.imag * vectors.imag)
+    return sizes
 
 
 def length(vector: complex) -> float:
@@ -232,8 +232,8 @@ def cut(loop: Loop, limit: float, *, down: bool = False) -> Loop:
     crosses, step = inside != np.roll(inside, -1), np.roll(place, -1) - place
     share = (limit - place) / np.where(crosses, step, 1)
     points = np.stack((loop, loop + share * (after - loop)), axis=1)
-    found: Loop = points[np.stack((inside, crosses), axis=1)]
-    return found
+    inner: Loop = points[np.stack((inside, crosses), axis=1)]
+    return inner
 
 
 def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: ArrayLike = 0.0) -> list[Loop]:
@@ -272,8 +272,8 @@ def unit(vector: complex) -> complex:
 def units(vectors: Loop) -> Loop:
     """Return the directions of vectors; to the right where one has no length."""
     length_ = lengths(vectors)
-    found: Loop = np.where(length_ > 0, vectors / np.where(length_ > 0, length_, 1), 1)
-    return found
+    unit_vectors: Loop = np.where(length_ > 0, vectors / np.where(length_ > 0, length_, 1), 1)
+    return unit_vectors
 
 
 def hull(points: Sequence[complex]) -> list[complex]:
@@ -375,13 +375,13 @@ class Part:
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
         at, turn = places[self.at], self.turn(places)
-        found = [self.shadow[1].placed(at + self.shadow[0], turn)] if self.shadow else []
-        found += [layer.placed(at, turn) for layer in self._joined]
+        layers = [self.shadow[1].placed(at + self.shadow[0], turn)] if self.shadow else []
+        layers += [layer.placed(at, turn) for layer in self._joined]
         for facing, layer in self.edges:
             up = -(facing * turn).imag
             if up > _LIT:
-                found.append(layer._replace(alpha=up * layer.alpha).placed(at, turn))
-        return found
+                layers.append(layer._replace(alpha=up * layer.alpha).placed(at, turn))
+        return layers
 
     def turn(self, places: Places) -> complex:
         """Return the direction that the part is turned by."""

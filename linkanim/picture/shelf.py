@@ -91,7 +91,7 @@ class Grid(NamedTuple):
         row = min(max(self.top + rows, 0), max(len(self.rows) - 1, 0))
         return self.shape.showing(row, row)
 
-    def beside(self, place: int, rows: int) -> int:
+    def neighbour(self, place: int, rows: int) -> int:
         """Return the mechanism nearest to a place, `rows` further down; the first row follows the last.
 
         The same place where there are no rows.
@@ -149,7 +149,7 @@ class Shape:
         self._wide = (self._room.width - (columns - 1) * self._gap) / columns
         self.line = (1.2 * _LINES + 0.3) * self.text
         groups = [
-            (name, [*members]) for name, members in groupby(browsing.found, lambda n: _chapter(browsing, n))
+            (name, [*members]) for name, members in groupby(browsing.matches, lambda n: _chapter(browsing, n))
         ]
         self._heads = [name for name, members in groups for _ in range(ceil(len(members) / columns))]
         self.rows = tuple(
@@ -185,14 +185,14 @@ class Shape:
                 cells[place] = Rect(x, y, self._wide, high)
             y += high + self._gap
         seen = tuple(one for one in heads if one[1].bottom <= self._room.bottom)
-        found = Grid(cells, seen, self.rows, top, self._room, self.line, self.text, self)
-        return found if len(found.seen) >= len(self.rows) else found._replace(track=self._track)
+        grid = Grid(cells, seen, self.rows, top, self._room, self.line, self.text, self)
+        return grid if len(grid.seen) >= len(self.rows) else grid._replace(track=self._track)
 
 
 def _chapter(browsing: Browsing, place: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
     if place == NEW:  # the empty sheet stands first in the first chapter
-        return next((_chapter(browsing, n) for n in browsing.found if n != NEW), MINE)
+        return next((_chapter(browsing, n) for n in browsing.matches if n != NEW), MINE)
     if browsing.file_at(place):
         return MINE
     name = browsing.texts(place)[2] or "opened"
@@ -241,41 +241,41 @@ class ShelfPrinter:
         if opens:
             self.close()
             self._made_for = made_for
-        board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
-        shown = (found.top, shelf.browsing.found, shelf.browsing.sieve)
+        board, cells = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
+        shown = (cells.top, shelf.browsing.matches, shelf.browsing.typed)
         if self._still is None or self._still[0] != shown:
-            self._still = shown, _still(size, board, found, shelf.browsing)
+            self._still = shown, _still(size, board, cells, shelf.browsing)
         surface.blit(self._still[1], (0, 0))
-        others = _AT_ONCE if opens else self._join(found, shelf)
-        for n in _due(self._live, found, shelf, others):
-            self._live[n].go(_turn(shelf, n, len(found.cells)))
-        surface.set_clip(pygame.Rect(0, 0, size[0], int(found.room.bottom)))
-        for n, cell in found.cells.items():
+        others = _AT_ONCE if opens else self._join(cells, shelf)
+        for n in _due(self._live, cells, shelf, others):
+            self._live[n].go(_turn(shelf, n, len(cells.cells)))
+        surface.set_clip(pygame.Rect(0, 0, size[0], int(cells.room.bottom)))
+        for n, cell in cells.cells.items():
             live = self._live.get(n)
             if live and live.printed:
                 surface.blit(live.printed, (round(cell.x), round(cell.y)))
             elif n in self._unread:
-                at = (cell.middle.real, cell.middle.imag - 0.5 * found.line)
+                at = (cell.middle.real, cell.middle.imag - 0.5 * cells.line)
                 board.write(
-                    surface, _UNREAD, at, size=found.text, colour=board.theme.warning, anchor="centre"
+                    surface, _UNREAD, at, size=cells.text, colour=board.theme.warning, anchor="centre"
                 )
             _mark(surface, board, cell, chosen=n == shelf.browsing.chosen, edited=n in shelf.edited)
         surface.set_clip(None)
-        _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
-        return found.targets
+        _foot(surface, board, cells, shelf, self._live.get(shelf.browsing.chosen))
+        return cells.targets
 
-    def _join(self, found: Grid, shelf: Shelf) -> int:
+    def _join(self, cells: Grid, shelf: Shelf) -> int:
         """Read the next visible mechanism, the chosen one first, or make the picture of the one just read.
 
         A file that is no scene has no picture. Returns how many others may move in the rest of this frame:
         reading a mechanism may take all of it.
         """
-        order = sorted(found.cells, key=lambda n: n != shelf.browsing.chosen)
+        order = sorted(cells.cells, key=lambda n: n != shelf.browsing.chosen)
         n = next((n for n in order if n not in self._live and n not in self._unread and n != NEW), None)
         if n is None:
             return _AT_ONCE
-        cell, file = found.cells[n], shelf.browsing.file_at(n)
-        size = round(cell.width), round(cell.height - found.line)
+        cell, file = cells.cells[n], shelf.browsing.file_at(n)
+        size = round(cell.width), round(cell.height - cells.line)
         look = Look(theme=shelf.theme, hud=False, background=False)
         try:
             entry = file.name if file else shelf.browsing.entries[n]
@@ -295,17 +295,17 @@ def _entered(entry: str | Scene, *, is_file: bool) -> Scene:
     return opened(Path(entry))[0] if is_file else load(entry)
 
 
-def _due(live: dict[int, Live], found: Grid, shelf: Shelf, others: int) -> list[int]:
+def _due(live: dict[int, Live], cells: Grid, shelf: Shelf, others: int) -> list[int]:
     """Return the places to be painted at this frame: the chosen one, new ones, and `others` whose turn it is.
 
     Where no others may move, the chosen one does not either.
     """
     if not others:
         return []
-    seen = [n for n in found.cells if n in live]
+    seen = [n for n in cells.cells if n in live]
     first = shelf.frame * _AT_ONCE % max(len(seen), 1)
     order = seen[first:] + seen[:first]
-    stale = [n for n in order if live[n].turn != _turn(shelf, n, len(found.cells))]
+    stale = [n for n in order if live[n].turn != _turn(shelf, n, len(cells.cells))]
     at_once = [n for n in stale if n == shelf.browsing.chosen or live[n].printed is None]
     return at_once + [n for n in stale if n not in at_once][:others]
 
@@ -316,47 +316,47 @@ def _turn(shelf: Shelf, n: int, count: int) -> int:
     return 0 if shelf.still else max((shelf.frame - n) // turns * turns, 0)
 
 
-def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing) -> pygame.Surface:
+def _still(size: tuple[int, int], board: Board, cells: Grid, browsing: Browsing) -> pygame.Surface:
     """Return the still part of a shelf: frames, titles, headings, and the typed text."""
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
-    typed = f"{browsing.sieve}_" if browsing.sieve else ""
+    typed = f"{browsing.typed}_" if browsing.typed else ""
     words, colour = (typed, board.theme.velocity) if typed else (browsing.heading, board.theme.ink)
-    text, x, y = found.text, found.room.x, 0.7 * found.text
+    text, x, y = cells.text, cells.room.x, 0.7 * cells.text
     board.write(still, words, (x, y), size=text, colour=colour, strong=True)
     count = (
-        f"{len([n for n in browsing.found if n != NEW])} of {len(browsing.entries) + len(browsing.own)}"
-        if browsing.sieve
+        f"{len([n for n in browsing.matches if n != NEW])} of {len(browsing.entries) + len(browsing.own)}"
+        if browsing.typed
         else f"{len(browsing.entries) + len(browsing.own)}"
     )
-    hint = count if browsing.sieve else f"type to filter   {count}"
-    board.write(still, hint, (found.room.right, y), size=text, colour=board.theme.dim, anchor="right")
-    if not browsing.found:
-        board.write(still, browsing.nothing, (x, found.room.y), size=text, colour=board.theme.warning)
-    for name, at in found.headings:
+    hint = count if browsing.typed else f"type to filter   {count}"
+    board.write(still, hint, (cells.room.right, y), size=text, colour=board.theme.dim, anchor="right")
+    if not browsing.matches:
+        board.write(still, browsing.nothing, (x, cells.room.y), size=text, colour=board.theme.warning)
+    for name, at in cells.headings:
         board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
     width = max(1.5 * board.layout.unit, 1.0)
-    outer, inner = ([frame_of(cell, board, by) for cell in found.cells.values()] for by in (width, 0.0))
+    outer, inner = ([frame_of(cell, board, by) for cell in cells.cells.values()] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
-    for n, cell in found.cells.items():
+    for n, cell in cells.cells.items():
         if n == NEW:
-            paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
-            _title(still, board, NEW_TITLE, cell, found)
+            paint(still, [Layer(board.theme.dim, _plus(cell, cells.line, board.layout.unit))])
+            _title(still, board, NEW_TITLE, cell, cells)
             continue
         if file := browsing.file_at(n):
-            _title(still, board, file.title, cell, found, file.written)
+            _title(still, board, file.title, cell, cells, file.written)
             continue
-        _title(still, board, browsing.texts(n)[1], cell, found)
-    still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
-    if found.track:
-        paint(still, _scroll_bar(board, found, found.track))
+        _title(still, board, browsing.texts(n)[1], cell, cells)
+    still.fill(board.theme.background, pygame.Rect(0, int(cells.room.bottom), *size))
+    if cells.track:
+        paint(still, _scroll_bar(board, cells, cells.track))
     return still
 
 
-def _scroll_bar(board: Board, found: Grid, track: Rect) -> list[Layer]:
+def _scroll_bar(board: Board, cells: Grid, track: Rect) -> list[Layer]:
     """Return the scroll bar, which shows on its track which rows are visible."""
-    wide, count, x = 0.34 * found.text, len(found.rows), track.middle.real
-    begin, end = (track.y + track.height * row / count for row in (found.seen.start, found.seen.stop))
+    wide, count, x = 0.34 * cells.text, len(cells.rows), track.middle.real
+    begin, end = (track.y + track.height * row / count for row in (cells.seen.start, cells.seen.stop))
     whole, part = (
         complex(x, (top + foot) / 2) + box(wide, foot - top, wide / 2)
         for top, foot in ((track.y, track.bottom), (begin, max(end, begin + 2 * wide)))
@@ -371,22 +371,22 @@ def _plus(cell: Rect, line: float, unit: float) -> list[Loop]:
 
 
 def _title(
-    surface: pygame.Surface, board: Board, title: str, cell: Rect, found: Grid, below: str = ""
+    surface: pygame.Surface, board: Board, title: str, cell: Rect, cells: Grid, below: str = ""
 ) -> None:
     """Write a title in two lines below its picture, as large as fits; or in one, and `below` under it."""
-    room = cell.width - 0.5 * found.text
+    room = cell.width - 0.5 * cells.text
     if below:
-        middle, foot = cell.x + cell.width / 2, cell.bottom - found.line + 0.1 * found.text
-        words = board.fitting((title,), found.text, room)
-        board.write(surface, words, (middle, foot), size=found.text, anchor="centre")
-        size = max(round(0.85 * found.text), _LEAST)
-        at_foot = (middle, foot + 1.25 * found.text)
+        middle, foot = cell.x + cell.width / 2, cell.bottom - cells.line + 0.1 * cells.text
+        words = board.fitting((title,), cells.text, room)
+        board.write(surface, words, (middle, foot), size=cells.text, anchor="centre")
+        size = max(round(0.85 * cells.text), _LEAST)
+        at_foot = (middle, foot + 1.25 * cells.text)
         board.write(surface, below, at_foot, size=size, colour=board.theme.dim, anchor="centre")
         return
-    lines, size = titled(board, title, found.text, room)
-    top = cell.bottom - found.line + (0.1 + 0.6 * (_LINES - len(lines))) * found.text
+    lines, size = titled(board, title, cells.text, room)
+    top = cell.bottom - cells.line + (0.1 + 0.6 * (_LINES - len(lines))) * cells.text
     for n, line in enumerate(lines):
-        at = (cell.x + cell.width / 2, top + 1.15 * found.text * n + (found.text - size) / 2)
+        at = (cell.x + cell.width / 2, top + 1.15 * cells.text * n + (cells.text - size) / 2)
         board.write(surface, line, at, size=size, anchor="centre")
 
 
@@ -422,11 +422,11 @@ def _mark(surface: pygame.Surface, board: Board, cell: Rect, *, chosen: bool, ed
         paint(surface, [Layer(ORANGE, [middle + disc(reach)])])
 
 
-def _foot(surface: pygame.Surface, board: Board, found: Grid, shelf: Shelf, live: Live | None) -> None:
+def _foot(surface: pygame.Surface, board: Board, cells: Grid, shelf: Shelf, live: Live | None) -> None:
     """Write what to watch for of the chosen mechanism at the foot, in two lines at the most."""
-    if live is None or shelf.browsing.chosen not in shelf.browsing.found:
+    if live is None or shelf.browsing.chosen not in shelf.browsing.matches:
         return
-    text, room = found.text, found.room
+    text, room = cells.text, cells.room
     for size in range(text, _LEAST - 1, -1):
         lines = board.type.wrapped(live.picture.scene.look_at, size, room.width)
         if len(lines) <= _LINES:
@@ -487,12 +487,12 @@ class RowPrinter:
         if self._still is None or self._still[0] != kind:
             self._still = kind, _still_answers(board, layout.row, cells, row)
         surface.blit(self._still[1], (round(layout.row.x), round(layout.row.y)))
-        for live, cell in self._shown(row, cells, _lines(row) * layout.small_size):
+        for live, cell in self._pictures(row, cells, _lines(row) * layout.small_size):
             assert live.printed
             surface.blit(live.printed, (round(cell.x), round(cell.y)))
         return targets
 
-    def _shown(self, row: AnswerRow, cells: tuple[Rect, ...], line: float) -> Iterator[tuple[Live, Rect]]:
+    def _pictures(self, row: AnswerRow, cells: tuple[Rect, ...], line: float) -> Iterator[tuple[Live, Rect]]:
         """Yield the pictures of this frame with their places; of those that are missing, make one."""
         making = True
         for n, (entry, cell) in enumerate(zip(row.entries, cells, strict=True)):

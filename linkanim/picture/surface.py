@@ -81,10 +81,10 @@ class SurfacePrinter:
         canvas = self._on_still(surface, picture, first)
         parted = [_parts(run) for run in others]
         fresh = [_shapes(groups) for parts in parted for key, groups in parts if key is None]
-        found = in_turn(canvas, fresh)
+        covers = in_turn(canvas, fresh)
         for run, parts in zip(others, parted, strict=True):
             for key, groups in parts:
-                for cover in next(found) if key is None else (self._kept(canvas, key, groups),):
+                for cover in next(covers) if key is None else (self._kept(canvas, key, groups),):
                     cover.put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
@@ -135,11 +135,11 @@ class SurfacePrinter:
     def _kept(self, canvas: pygame.Surface, key: Hashable, groups: tuple[Group, ...]) -> Cover:
         """Return what groups do to the canvas, worked out once for each key."""
         if key not in self._covers:
-            found = _cover(canvas, groups)
-            taken = sum(kept.nbytes for _, kept in self._covers.values()) + found.nbytes
+            cover = _cover(canvas, groups)
+            taken = sum(kept.nbytes for _, kept in self._covers.values()) + cover.nbytes
             if taken > min(_MOST_PICTURES * canvas.get_buffer().length, _MOST_BYTES):
                 self._covers.clear()
-            self._covers[key] = groups, found
+            self._covers[key] = groups, cover
         return self._covers[key][1]
 
     def _words(

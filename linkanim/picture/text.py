@@ -108,8 +108,8 @@ class Fonts:
     def pieces(self, text: str) -> list[tuple[str, str]]:
         """Return a text in pieces of one font each: its file (REGULAR: the bundled face), and what is set."""
         spellings = ((char, *self._spelling(char)) for char in text)
-        found = groupby(spellings, key=itemgetter(1))
-        return [(home, "".join(spelling for _, _, spelling in piece)) for home, piece in found]
+        runs = groupby(spellings, key=itemgetter(1))
+        return [(home, "".join(spelling for _, _, spelling in piece)) for home, piece in runs]
 
     def has_alone(self, char: str) -> bool:
         """Return whether a font has a character, and its form does not depend on its neighbours."""
@@ -136,10 +136,10 @@ class Fonts:
     def _spelling(self, char: str) -> tuple[str, str]:
         """Return the font file (REGULAR: the bundled face) and the text that a character is drawn with."""
         if char not in self._spelt:
-            self._spelt[char] = self._found(char)
+            self._spelt[char] = self._home_of(char)
         return self._spelt[char]
 
-    def _found(self, char: str) -> tuple[str, str]:
+    def _home_of(self, char: str) -> tuple[str, str]:
         if _is_seen(char) and not self.face_has(char) and (JOINS or not script_of(char)):
             homes = (path for path in self._system() if _has(self._font(path, 24), char))
             if home := next(homes, None):
@@ -167,8 +167,8 @@ def _files() -> Iterator[str]:
         # a system that cannot list its fonts counts as having none
         warnings.simplefilter("ignore")
         known = frozenset(pygame.font.get_fonts())
-        found = [pygame.font.match_font(name) for name in _WIDE if name in known]
-    yield from (path for path in found if path)
+        files = [pygame.font.match_font(name) for name in _WIDE if name in known]
+    yield from (path for path in files if path)
 
 
 def _is_seen(char: str) -> bool:
@@ -200,16 +200,16 @@ def script_of(text: str) -> str:
 
 def glyphs_of(text: str) -> list[str]:
     """Return a text in what is drawn at once: a character, or a stretch of letters that join."""
-    found: list[str] = []
+    glyphs: list[str] = []
     script = ""
     for char in text:
         own = script_of(char) or (script if char == " " or unicodedata.combining(char) else "")
         if own and own == script:
-            found[-1] += char
+            glyphs[-1] += char
         else:
-            found.append(char)
+            glyphs.append(char)
         script = own
-    return [part for whole in found for part in _ending(whole)]
+    return [part for whole in glyphs for part in _ending(whole)]
 
 
 def _ending(whole: str) -> list[str]:
@@ -280,7 +280,7 @@ def typesetting(size: int) -> Typesetting:
 
 def subscripted(name: str) -> str:
     """Return a name with the number it ends in as a subscript: O2 as O₂, O2' as O₂'; another as it is."""
-    return _INDEX.sub(lambda found: found[1].translate(_LOWERED) + found[2], name)
+    return _INDEX.sub(lambda match: match[1].translate(_LOWERED) + match[2], name)
 
 
 _Place = tuple[str, int, int, int]
@@ -337,7 +337,7 @@ class Type:
         quarter of a pixel, which spaces small text evenly.
         """
         width, inked = self._inked_of(text, size, colour, _face(strong))
-        x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
+        x, y = _left_edge(at[0], width, anchor), round(at[1]) + round(_BASE * size)
         surface.blits([(sprite, (x + right, y + down)) for sprite, right, down in inked], doreturn=False)
         return width
 
@@ -449,8 +449,8 @@ class Type:
             words = text.split()
 
             def fits(width: int) -> bool:
-                found = self._in_lines(text, size, width, " ", strong=True)
-                return len(found) <= count and " ".join(found).split() == words
+                lines = self._in_lines(text, size, width, " ", strong=True)
+                return len(lines) <= count and " ".join(lines).split() == words
 
             if len(self._narrowest) >= _KEPT:
                 self._narrowest.clear()
@@ -477,10 +477,10 @@ def hyphened(word: str) -> list[str]:
 
 def _runs(text: str) -> Iterator[Run]:
     end = 0
-    for found in _SUBSCRIPT.finditer(text):
-        yield Run(text[end : found.start()], lowered=False)
-        yield Run(found[1] or normalize("NFKC", found[2] or ""), lowered=True)
-        end = found.end()
+    for match in _SUBSCRIPT.finditer(text):
+        yield Run(text[end : match.start()], lowered=False)
+        yield Run(match[1] or normalize("NFKC", match[2] or ""), lowered=True)
+        end = match.end()
     yield Run(text[end:], lowered=False)
 
 
@@ -538,7 +538,7 @@ def _joined(run: list[Inked]) -> Inked:
     return Inked(sheet, left, top)
 
 
-def _left(x: float, width: int, anchor: Anchor) -> int:
+def _left_edge(x: float, width: int, anchor: Anchor) -> int:
     return round(x) - {"left": 0, "centre": width // 2, "right": width}[anchor]
 
 

@@ -122,7 +122,7 @@ class View:
         """Return the point of the scene under a position in the window."""
         return (px - self.x) / self.scale, (self.y - py) / self.scale
 
-    def place(self, point: tuple[float, float]) -> complex:
+    def pixel(self, point: tuple[float, float]) -> complex:
         """Return where a point of the scene lies, as x + yi in pixels."""
         return complex(self.x + self.scale * point[0], self.y - self.scale * point[1])
 

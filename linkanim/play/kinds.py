@@ -574,7 +574,7 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     if not (abs(centre) < inf and abs(centre - complex(*box.middle)) < size):
         return None
     ends = [puzzle.vector("position", name) for name in body.joints[:2]]
-    places = {puzzle.vector("position", name): name for name in puzzle.figure.shown}
+    places = {puzzle.vector("position", name): name for name in puzzle.figure.in_view}
     half = sum(ends) / 2
     points = _apart([centre, half, *ends, *places], _NEAR * size)[:MOST]
     if len(points) < 3:

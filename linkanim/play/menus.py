@@ -25,7 +25,7 @@ from linkanim.play.games import (
 from linkanim.player import shelving
 from linkanim.player.action import Action
 from linkanim.player.actions import leave, with_scene
-from linkanim.player.building import build, left
+from linkanim.player.building import build, leave_sheet
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import carry, drop, grab
 from linkanim.player.pencil import pencil
@@ -250,9 +250,9 @@ def _through(state: State, door: int) -> State:
         return begun(state, "lobby")
     state = leave(state)
     if name == "path":
-        return pencil(left(state), None)
+        return pencil(leave_sheet(state), None)
     if name == "run":
-        state = left(state)
+        state = leave_sheet(state)
         return replace(state, clock=state.clock.pause(state.frame, False))
     return state if state.building else build(state, None)
 

@@ -137,7 +137,7 @@ class Puzzle:
     def joints(self) -> tuple[str, ...]:
         """The joints that are drawn and move."""
         fixed = {pin.name for pin in self.scene.linkage.pins}
-        return tuple(name for name in self.figure.shown if name not in fixed)
+        return tuple(name for name in self.figure.in_view if name not in fixed)
 
     def vector(self, kind: str, name: str) -> complex:
         """Return a joint's position, velocity or acceleration at the pose, x + yi."""

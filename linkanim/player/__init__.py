@@ -35,7 +35,7 @@ From the ground up; a module imports from those before it only:
     tape       what was done, frame by frame
     tape_file  a tape as a file
     files      files that the window writes
-    beside     processes beside the window: a search, a recording
+    background  processes beside the window: a search, a recording
     desktop    what the desktop asks of every program
     window     the loop
 """

@@ -25,14 +25,14 @@ from linkanim.player.framing import departed
 from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.modes import MODES
 from linkanim.player.naming import Naming
-from linkanim.player.sketching import left
+from linkanim.player.sketching import leave_sketch
 from linkanim.player.state import (
     ATTRACT_AFTER,
     CHIP_FRAMES,
     FLASH_FRAMES,
+    MOUSE_FRAMES,
     MOVE_FRAMES,
     SHUTTER_FRAMES,
-    STIR_FRAMES,
     Editing,
     Game,
     Rule,
@@ -102,14 +102,14 @@ def polygons(state: State, _: None) -> State:
 
 def unit(state: State, _: None) -> State:
     """Show lengths in the next unit, the scene's own among them."""
-    following = _after(settled_look(state).unit, LENGTH_UNITS, usual=state.scene.length_unit)
+    following = _after(effective_look(state).unit, LENGTH_UNITS, usual=state.scene.length_unit)
     return replace(state, look=replace(state.look, unit=following))
 
 
 def over(state: State, _: None) -> State:
     """Run the chart over the next axis that the scene has, the usual one among them."""
     axes = axes_of(state.scene)
-    following = _after(settled_look(state).over, axes, usual=axes[0])
+    following = _after(effective_look(state).over, axes, usual=axes[0])
     return replace(state, look=replace(state.look, over=following))
 
 
@@ -119,7 +119,7 @@ def _after(now: Step | None, steps: tuple[Step, ...], *, usual: Step) -> Step | 
     return None if following == usual else following
 
 
-def settled_look(state: State) -> Look:
+def effective_look(state: State) -> Look:
     """Return the look with the scene's usual values instead of None."""
     scene, look = state.scene, state.look
     return replace(look, unit=look.unit or scene.length_unit, over=axis_of(scene, look.over))
@@ -266,7 +266,7 @@ def _saved(state: State, asked: tuple[str, str | None]) -> State:
     return with_effect(state, *asked)
 
 
-def take_toast(state: State, _: None) -> State:
+def open_toast(state: State, _: None) -> State:
     """Close the toast, and open the folder of the file that it says is saved."""
     told = state.toast.text if state.toast and not state.of(Naming) else ""
     return with_effect(replace(state, toast=None), "folder", told) if told else state
@@ -287,7 +287,7 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 BESIDE = (
     BESIDE_GAMES
     | {"keep_step", "caption_step", "lesson_on"}
-    | {"take_toast", "take_into", "stir", "menu", "note", "hint", "close"}
+    | {"take_toast", "take_into", "mouse_moved", "menu", "note", "hint", "close"}
 )
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 
@@ -298,7 +298,7 @@ def play(state: State, words: str) -> State:
         return with_toast(state, "there are no games in this window; the program's own has them")
     game = state.games(words)
     if state.beneath is None:
-        state = drop(left(state), None)
+        state = drop(leave_sketch(state), None)
         state = replace(state, beneath=state.unlisted.unhelped)
     bare = replace(state, modes=(), glide=None, home=None, toast=None)
     bare = replace(bare, also=(), place_typed="", chip=None)
@@ -315,7 +315,9 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, from_title=state.from_title, kiosk=state.kiosk, take=state.take)
-    resumed = replace(resumed, stirred=state.stirred)  # what was clicked in the game has brought the bar
+    resumed = replace(
+        resumed, last_mouse_move=state.last_mouse_move
+    )  # what was clicked in the game has brought the bar
     above = (one for one in state.unlisted.unhelped.modes if not isinstance(one, Game))
     resumed = replace(resumed, modes=(*under.modes, *above))
     return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
@@ -343,7 +345,7 @@ def _direction(_: State, after: State) -> str:
     return "forward" if after.clock.direction > 0 else "reverse"
 
 
-def _place(before: State, after: State) -> str | None:
+def _position(before: State, after: State) -> str | None:
     """Say which of the shelf's mechanisms is shown."""
     return None if after.scene is before.scene else f"{after.place + 1} / {len(after.shelf)}"
 
@@ -399,7 +401,7 @@ def _of_look(name: str) -> Rule:
     return Rule(
         rules.one_of(*TOGGLES[name].members),
         handle,
-        answer=lambda before, after: answer(settled_look(before), settled_look(after), name),
+        answer=lambda before, after: answer(effective_look(before), effective_look(after), name),
     )
 
 
@@ -418,9 +420,9 @@ ACTIONS: Mapping[str, Rule] = {
     "type_place": Rule(rules.text, write),
     "erase_place": Rule(rules.nothing, erase),
     "go": Rule(rules.nothing, go),
-    "mechanism": Rule(rules.whole, edits.mechanism, answer=_place),  # places further on the shelf
-    "select": Rule(rules.whole, edits.select, answer=_place),  # the place in the catalogue, from 0
-    "put": Rule(rules.whole, building.put, answer=_place),  # the place on the shelf, from 0
+    "mechanism": Rule(rules.whole, edits.mechanism, answer=_position),  # places further on the shelf
+    "select": Rule(rules.whole, edits.select, answer=_position),  # the place in the catalogue, from 0
+    "put": Rule(rules.whole, building.put, answer=_position),  # the place on the shelf, from 0
     "closure": Rule(rules.nothing, edits.closure, answer=rules.closure),
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(rules.whole, chart, answer=_chart),  # quantities further
@@ -452,8 +454,10 @@ ACTIONS: Mapping[str, Rule] = {
     "construction": Rule(rules.one_of(*get_args(ConstructionKind)), making.construction),
     "slide": Rule(rules.whole, making.slide),  # the step of the slider that is shown
     "back": Rule(rules.nothing, back),
-    "take_toast": Rule(rules.nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
-    "stir": Rule(rules.nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
+    "take_toast": Rule(rules.nothing, open_toast, taped=False),  # a click on it: the folder that it tells of
+    "mouse_moved": Rule(
+        rules.nothing, lambda state, _: replace(state, last_mouse_move=state.frame), taped=False
+    ),
     "open_file": Rule(rules.text, effect("open"), taped=False),
     "screenshot": Rule(rules.nothing, shot("screenshot"), taped=False),
     "svg": Rule(rules.nothing, shot("svg"), taped=False),
@@ -493,9 +497,14 @@ Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo", "stage"})
 """Actions that open a sheet, or show a step of a lesson, even out of a game."""
-_NOT_BY_HAND = frozenset({"note", "hint", "stir"})
+_NOT_BY_HAND = frozenset({"note", "hint", "mouse_moved"})
 """Actions that no user asks for, and the one that only brings the bar of commands."""
-_LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": MOVE_FRAMES, "shot": SHUTTER_FRAMES}
+_LIVES = {
+    "last_mouse_move": MOUSE_FRAMES,
+    "turned": FLASH_FRAMES,
+    "faded": MOVE_FRAMES,
+    "shot": SHUTTER_FRAMES,
+}
 """For how many frames after the frame in the state's field something is visible."""
 
 
@@ -507,7 +516,7 @@ def advance(state: State, actions: Iterable[Action] = ()) -> State:
     before, state = state, aged(state)
     for action in actions:
         state = carried(state, action)
-    return settled(before, state)
+    return end_of_frame(before, state)
 
 
 def aged(state: State) -> State:
@@ -557,7 +566,7 @@ def carried(state: State, action: Action) -> State:
     return _tried(state, action, handled)
 
 
-def settled(before: State, state: State) -> State:
+def end_of_frame(before: State, state: State) -> State:
     """Return the state at the end of a frame, with what it leaves of that of the frame before.
 
     In a kiosk a mechanism left alone gives way to the title, unless it is paused, recorded, or has something

@@ -35,7 +35,7 @@ _PLACES = 288
 
 
 @lru_cache(maxsize=2)
-def _found(scene: Scene) -> Tolerance:
+def _tolerance(scene: Scene) -> Tolerance:
     """Return how far a scene is off at the usual tolerance; BadInput where there is no first order."""
     from linkanim.scenes.deviation import tolerance
 
@@ -48,10 +48,10 @@ def _round(level: int) -> float:
     return float(f"{(1, 2, 5)[step]}e{decade}")
 
 
-def _usual(found: Tolerance) -> int:
+def _usual(tolerance: Tolerance) -> int:
     """Return the level of the greatest round number that is not above the usual tolerance."""
-    lowest = 3 * math.floor(math.log10(found.by))
-    return max(level for level in range(lowest, lowest + 3) if _round(level) <= found.by)
+    lowest = 3 * math.floor(math.log10(tolerance.by))
+    return max(level for level in range(lowest, lowest + 3) if _round(level) <= tolerance.by)
 
 
 def _toggle(state: State, _: None) -> State:
@@ -59,11 +59,11 @@ def _toggle(state: State, _: None) -> State:
     if state.of(ToleranceBand):
         return state.without(ToleranceBand)
     try:
-        found = _found(state.scene)
+        tolerance = _tolerance(state.scene)
     except BadInput as error:
         return with_toast(state, str(error))
     bare = state.unlisted.unhelped.without(Construction)
-    return bare if bare.keys.alone else bare.with_mode(ToleranceBand(bare.scene, _usual(found)))
+    return bare if bare.keys.alone else bare.with_mode(ToleranceBand(bare.scene, _usual(tolerance)))
 
 
 def _by(state: State, steps: int) -> State:
@@ -71,7 +71,7 @@ def _by(state: State, steps: int) -> State:
     band = state.of(ToleranceBand)
     if band is None:
         return state
-    usual = _usual(_found(band.scene))
+    usual = _usual(_tolerance(band.scene))
     level = min(max(band.level + steps, usual + _FINEST), usual + _COARSEST)
     return state.with_mode(replace(band, level=level))
 
@@ -114,16 +114,16 @@ class ToleranceBand(Mode):
         """Return the overlay with the band, and the words on it."""
         if state.scene is not self.scene:
             return over
-        found, scene, by = _found(self.scene), self.scene, _round(self.level)
-        times, joints = by / found.by, scene.linkage.by_name
-        edges = tuple(_edges(scene, off, times) for off in found.quantities if off.name in joints)
-        first, *others = (_said(scene, off, times) for off in found.quantities)
-        facts = "; ".join([f"chiefly by {found.most(found.quantities[0])}", *others])
+        tolerance, scene, by = _tolerance(self.scene), self.scene, _round(self.level)
+        times, joints = by / tolerance.by, scene.linkage.by_name
+        edges = tuple(_edges(scene, off, times) for off in tolerance.quantities if off.name in joints)
+        first, *others = (_in_words(scene, off, times) for off in tolerance.quantities)
+        facts = "; ".join([f"chiefly by {tolerance.most(tolerance.quantities[0])}", *others])
         sentence = f"each length ± {significant(by, 3)} {scene.length_unit}: {first}"
         return replace(over, band=BandShown(edges, sentence, (facts,)))
 
 
-def _said(scene: Scene, off: Off, times: float) -> str:
+def _in_words(scene: Scene, off: Off, times: float) -> str:
     """Return how far a quantity may be off, in words."""
     most, unit = times * off.worst, scene.length_unit
     said = f"{significant(math.degrees(most), 3)}°" if off.is_angle else f"{significant(most, 3)} {unit}"

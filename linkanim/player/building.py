@@ -63,8 +63,7 @@ from linkanim.player.keys import (
 )
 from linkanim.player.shown import built as shown_on
 from linkanim.player.shown import called, stated, subscripted_words
-from linkanim.player.sketching import REFUSED
-from linkanim.player.sketching import left as abandoned
+from linkanim.player.sketching import REFUSED, leave_sketch
 from linkanim.player.state import (
     BLANK,
     HOME,
@@ -122,7 +121,7 @@ _MEANT = "the draft is not saved: Ctrl+S saves it; press again to close, and it 
 def build(state: State, _: None) -> State:
     """Open the sheet, as it was left if there is one; or leave it with what was built on it."""
     if state.building:
-        return left(state)
+        return leave_sheet(state)
     return _opened(state, state.sheet.building if state.sheet else Building())
 
 
@@ -133,7 +132,7 @@ def build_on(state: State, _: None) -> State:
     """
     sheet, editing = state.sheet, state.editing
     if state.building:
-        return left(state)
+        return leave_sheet(state)
     if sheet and sheet.building.made.scene is state.scene:
         return _opened(state, sheet.building)
     past, future = (tuple(map(draft_of, scenes)) for scenes in (editing.past, editing.future))
@@ -168,7 +167,7 @@ def _anew(state: State, make: Callable[[], Building]) -> State:
     if sheet and not (sheet.is_written or sheet.warned or _is_undone_to(state, sheet)):
         return with_toast(replace(state, sheet=replace(sheet, warned=True)), LOST)
     building = make()
-    return _opened(replace(left(state), sheet=None), building, known=True)
+    return _opened(replace(leave_sheet(state), sheet=None), building, known=True)
 
 
 def _is_undone_to(state: State, sheet: BuildSheet) -> bool:
@@ -179,7 +178,7 @@ def _is_undone_to(state: State, sheet: BuildSheet) -> bool:
 
 def _opened(state: State, building: Building, *, known: bool = False) -> State:
     """Return the state with a sheet open over its scene; `known` says that its draft is in a file."""
-    state, last = abandoned(drop(state, None)), state.sheet
+    state, last = leave_sketch(drop(state, None)), state.sheet
     editing = nothing_begun(state.editing)
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
     sheet = replace(sheet, look=state.look)
@@ -193,7 +192,7 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
     return _shown(replace(bare, sheet=sheet, faded=state.frame), building)
 
 
-def left(state: State) -> State:
+def leave_sheet(state: State) -> State:
     """Leave the sheet: a linkage that moves becomes the scene, which can be undone; the sheet is kept."""
     sheet = state.building
     if sheet is None:
@@ -298,11 +297,11 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     if scene is None or scene is state.scene:
         return drawn
     known = scene.linkage == state.scene.linkage and state.clock.paused and not live
-    found = exchanged(replace(drawn, glide=None), scene)
-    clock = found.clock.go(state.frame, building.draft.phase, paused=True)
+    after = exchanged(replace(drawn, glide=None), scene)
+    clock = after.clock.go(state.frame, building.draft.phase, paused=True)
     stands = live or known or not any(joint.dyad or joint.grouped for joint in scene.linkage.joints)
-    found = replace(found, clock=clock, sheet=replace(sheet_of(drawn), rests=None))
-    return found if stands else _once(found)
+    after = replace(after, clock=clock, sheet=replace(sheet_of(drawn), rests=None))
+    return after if stands else _once(after)
 
 
 def sheet_of(state: State) -> BuildSheet:
@@ -491,12 +490,12 @@ def _scaled(state: State, sheet: BuildSheet, one: complex, other: complex) -> St
     return _with(_shown(state, replace(after, typed="")), span=(there.real, there.imag))
 
 
-def take(state: State, _: None) -> State:
+def accept(state: State, _: None) -> State:
     """Take the typed value: for the distance of two points of a photograph, or for the chosen thing."""
     sheet = state.building
     if sheet and sheet.tool == "photo" and sheet.anchor and sheet.span and sheet.building.typed:
         return _scaled(state, sheet, complex(*sheet.anchor), complex(*sheet.span))
-    return _taken(state, None)
+    return _accepted(state, None)
 
 
 def offer(state: State, place: int) -> State:
@@ -553,7 +552,7 @@ def number(state: State, further: int) -> State:
 option = _changed(dimensions.next_option)
 write = _changed(dimensions.write)
 erase = _changed(dimensions.erase)
-_taken = _changed(dimensions.take)
+_accepted = _changed(dimensions.accept)
 remove = _changed(gestures.delete)
 trace = _changed(gestures.trace)
 
@@ -584,8 +583,8 @@ def _driven(state: State, building: Building, at: Point, *, here: bool = False) 
     """Return the state with a chosen thing driven, and the other ways of it offered at a place."""
     ways = () if building.is_refusal else tuple(gestures.drives(building, here=here))[:_OFFERED]
     offers = tuple(Meaning(*way) for way in ways)
-    found = _shown(state, offers[0].building if offers else building)
-    return _with(found, offers=offers if len(offers) > 1 else (), offered=at)
+    driven = _shown(state, offers[0].building if offers else building)
+    return _with(driven, offers=offers if len(offers) > 1 else (), offered=at)
 
 
 def reassemble(state: State, _: None) -> State:
@@ -701,7 +700,7 @@ def _row_nudged(state: State, sheet: BuildSheet, steps: int) -> State:
     one = rows[at]
     assert one.row.number
     typed = replace(sheet.building, row=one.place, typed=nudged(one.row.number, steps))
-    return _shown(state, replace(dimensions.take(typed), row=one.place))
+    return _shown(state, replace(dimensions.accept(typed), row=one.place))
 
 
 def _unused(state: State, _: object) -> State:
@@ -712,14 +711,14 @@ def _passed_on(state: State, further: int) -> State:
     """Go on in the list; what is typed as a bar's length waits in its row there, another value is taken."""
     building = sheet_of(state).building
     if building.typed and (building.row or (building.chosen or ("",))[0] != "bars"):
-        state, building = (taken := _taken(state, None)), sheet_of(taken).building
+        state, building = (taken := _accepted(state, None)), sheet_of(taken).building
         if building.is_refusal:
             return state
     bare = _with(state, building=choosing(replace(building, typed=""), None), rowed=False)
     return pass_on(replace(bare, editing=replace(bare.editing, typed=building.typed)), further)
 
 
-_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _taken, "pass_on": _passed_on}
+_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _accepted, "pass_on": _passed_on}
 _DRAFT_ROWS: Mapping[str, Handler] = {
     "choose": _in_rows(_row_further),
     "pass_on": _in_rows(_row_further),
@@ -852,7 +851,7 @@ def _of_tool(tool: Tool) -> KeyRow:
 _SHEET_KEYS = (
     KeyRow("Ctrl+← →", "choose", both("ctrl+left", "ctrl+right", "further")),
     KeyRow("Del", "remove it and what depends on it", on("delete", "remove")),
-    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("unbuild", "rebuild")),
+    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", undo_keys("undo_sheet", "redo_sheet")),
     KeyRow("E", "the list of all dimensions; E again: without it", on("e", "numbers")),
     KeyRow("Ctrl+N", "an empty sheet", on("ctrl+n", "sheet")),
     KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", on("f2", "build")),
@@ -929,7 +928,7 @@ class OpenSheet(Mode):
                     "digits, Enter",
                     "type the value of what is chosen, if anything is; Ctrl+↑ ↓: its other rows, "
                     "name and colour too",
-                    both("ctrl+up", "ctrl+down", "number") + on("backspace", "undigit", held=True),
+                    both("ctrl+up", "ctrl+down", "number") + on("backspace", "erase_number", held=True),
                 ),
                 KeyRow(
                     "arrows (Shift: fine), Enter",
@@ -954,8 +953,8 @@ class OpenSheet(Mode):
         HOME_BAR,
         *MOVING_BAR,
         BarEntry("edit", Action("numbers"), 7, leads=True),
-        BarEntry("undo", Action("unbuild"), 5, leads=True),
-        BarEntry("redo", Action("rebuild"), 9),
+        BarEntry("undo", Action("undo_sheet"), 5, leads=True),
+        BarEntry("redo", Action("redo_sheet"), 9),
         BarEntry("new", Action("sheet"), 6, leads=True),
         BarEntry("save", Action("save"), 4),
         BarEntry("done", Action("build"), 3),
@@ -979,8 +978,8 @@ class OpenSheet(Mode):
         "number": Rule(rules.whole, number),
         "option_on": Rule(rules.nothing, option),  # another of what the chosen row can be
         "digits": Rule(rules.text, write),
-        "undigit": Rule(rules.nothing, erase),
-        "take_number": Rule(rules.nothing, take),
+        "erase_number": Rule(rules.nothing, erase),
+        "take_number": Rule(rules.nothing, accept),
         "reassemble": Rule(
             rules.nothing, reassemble, answer=rules.closure
         ),  # as "closure", and the sheet stays
@@ -988,8 +987,8 @@ class OpenSheet(Mode):
         "trace_on": Rule(rules.nothing, trace),
         "drive_by": Rule(rules.nothing, drive),
         "motor": Rule(rules.hand, motor),  # (x, y), how near counts as on it, the step of what is drawn
-        "unbuild": Rule(rules.nothing, undo, answer=rules.stuck("nothing to undo")),
-        "rebuild": Rule(rules.nothing, redo, answer=rules.stuck("nothing to redo")),
+        "undo_sheet": Rule(rules.nothing, undo, answer=rules.stuck("nothing to undo")),
+        "redo_sheet": Rule(rules.nothing, redo, answer=rules.stuck("nothing to redo")),
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"aim": _aim, "enter": _enter}
     has_head, has_tools, is_sheet, is_paper = True, True, True, True
@@ -1012,7 +1011,7 @@ class OpenSheet(Mode):
     def ready_for(self, state: State, action: Action) -> State:
         """Leave the sheet for an action on the scene."""
         stays = state.edits_dimensions and action.name in _IN_THE_LIST
-        return left(state) if action.name in _OFF_THE_SHEET and not stays else state
+        return leave_sheet(state) if action.name in _OFF_THE_SHEET and not stays else state
 
     def agreed(self, before: State, after: State) -> State:
         """Return the state with the sheet and the open list of dimensions in agreement."""
@@ -1024,7 +1023,7 @@ class OpenSheet(Mode):
 
     def closed(self, state: State) -> State:
         """Let go of a gesture, typed text, a choice, or a tool; else leave the sheet."""
-        return let_go(state) or left(state)
+        return let_go(state) or leave_sheet(state)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the draft, or the linkage, words, tools, and what is under the hand."""
@@ -1104,7 +1103,7 @@ class SheetNumbers(Dimensions):
 
     def closed(self, state: State) -> State:
         """Discard what is typed; else leave list and sheet, which are one mode."""
-        return let_go(state) or left(state)
+        return let_go(state) or leave_sheet(state)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list of the linkage, or of the draft where nothing moves."""
@@ -1121,5 +1120,5 @@ class SheetNumbers(Dimensions):
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Act on the list where the mouse is on it, else on the sheet."""
-        found = self.on_list(gesture, mouse, screen) if mouse.drag in (None, "row") else None
-        return OpenSheet().mouse(gesture, mouse, screen) if found is None else found
+        actions = self.on_list(gesture, mouse, screen) if mouse.drag in (None, "row") else None
+        return OpenSheet().mouse(gesture, mouse, screen) if actions is None else actions

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, sifted
+from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, filtered
 from linkanim.player.action import Action
 from linkanim.player.clock import FASTEST, SLOWEST
 from linkanim.player.keys import (
@@ -26,7 +26,7 @@ from linkanim.player.keys import (
     group_key,
     row_actions,
 )
-from linkanim.player.state import BLANK, STIR_FRAMES, Game, State
+from linkanim.player.state import BLANK, MOUSE_FRAMES, Game, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
 
@@ -74,9 +74,9 @@ _BARE = (HOME_BAR._replace(rank=0), *_SCENE)
 
 def bar(state: State, pointed: int | None = None) -> CommandBar | None:
     """Return the bar while it shows: for three seconds after the mouse or a finger has moved."""
-    if state.stirred is None:
+    if state.last_mouse_move is None:
         return None
-    left = state.stirred + STIR_FRAMES - state.frame
+    left = state.last_mouse_move + MOUSE_FRAMES - state.frame
     eighths = min(8 * left // _FADING, 8)
     if eighths <= 0:
         return None
@@ -172,17 +172,17 @@ class Entries:
 
     title: str
     entries: tuple[ListRow, ...]
-    sieve: str = ""
+    typed: str = ""
 
     @cached_property
-    def found(self) -> tuple[ListRow, ...]:
-        """The rows that have all the sieve's words."""
-        return sifted({one: one.texts or (one.words, one.key) for one in self.entries}, self.sieve)
+    def matches(self) -> tuple[ListRow, ...]:
+        """The rows that have all the typed words."""
+        return filtered({one: one.texts or (one.words, one.key) for one in self.entries}, self.typed)
 
     @cached_property
     def rows(self) -> tuple[tuple[str, str], ...]:
-        """The found rows as a list shows them: their words and keys."""
-        return tuple((one.words, one.key) for one in self.found)
+        """The matching rows as a list shows them: their words and keys."""
+        return tuple((one.words, one.key) for one in self.matches)
 
 
 def menu_of(state: State, what: str | None) -> Entries | None:
@@ -218,16 +218,16 @@ def line_asks(mode: ModeKeys, keys: str) -> Action | None:
 
 
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
-    found = [row for action, row in usual.items() if action.name != "menu"] + [*_constructions(state)]
+    listed = [row for action, row in usual.items() if action.name != "menu"] + [*_constructions(state)]
     if state.game:
-        found = [
+        listed = [
             *_of_game(state, state.game, usual),
-            *(row for row in found if row.action.name in BESIDE_GAMES),
+            *(row for row in listed if row.action.name in BESIDE_GAMES),
         ]
     if group is None:
-        return Entries("Commands", tuple(found))
+        return Entries("Commands", tuple(listed))
     title, members = GROUPS[group]
-    rows = (row for row in found if row.action in members)
+    rows = (row for row in listed if row.action in members)
     named = _constructions(state) if group == "construction" else ()
     return Entries(title, (*sorted(rows, key=lambda row: members.index(row.action)), *named))
 
@@ -268,7 +268,7 @@ _CHOSEN: Mapping[str, tuple[Action, ...]] = {
     ),
     "chosen": (
         *(Action("trace_on"), Action("drive_by"), Action("remove"), Action("number", 1)),
-        *(Action("unbuild"), Action("rebuild")),
+        *(Action("undo_sheet"), Action("redo_sheet")),
     ),
 }
 """The commands of the thing under the hand that stand in the table."""
@@ -358,8 +358,8 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("trace"): lambda state: "" if state.scene.trace else "no joint of this mechanism is traced",
     Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else _NONE_YET,
     Action("take_back"): lambda state: "" if state.sketch and state.sketch.earlier else _NO_CHANGE,
-    Action("unbuild"): lambda state: "" if state.building and state.building.building.past else _NO_CHANGE,
-    Action("rebuild"): lambda state: (
+    Action("undo_sheet"): lambda state: "" if state.building and state.building.building.past else _NO_CHANGE,
+    Action("redo_sheet"): lambda state: (
         "" if state.building and state.building.building.future else "there is nothing to redo"
     ),
     Action("numbers"): _nothing_drawn,

@@ -22,9 +22,9 @@ def reduces_motion(environ: Mapping[str, str] = os.environ) -> bool:
     GNOME and its relatives, macOS and Windows are asked, each in its own way.
     """
     if sys.platform == "win32":
-        found = ctypes.c_int(1)
-        ctypes.windll.user32.SystemParametersInfoW(_ANIMATES, 0, ctypes.byref(found), 0)
-        return not found.value
+        animates = ctypes.c_int(1)
+        ctypes.windll.user32.SystemParametersInfoW(_ANIMATES, 0, ctypes.byref(animates), 0)
+        return not animates.value
     if sys.platform == "darwin":
         return _answer("defaults", "read", "com.apple.universalaccess", "reduceMotion") == "1"
     desktops = {"gnome", "unity", "x-cinnamon", "budgie", "pantheon", "ubuntu"}

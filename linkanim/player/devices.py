@@ -111,16 +111,16 @@ class Fingers:
 
         Mouse events that the system itself made of fingers are left out; they have a mark.
         """
-        found: list[Event] = []
+        pointed: list[Event] = []
         for event in events:
             if event.type in FINGERS:
-                found += self._of_finger(event, size)
+                pointed += self._of_finger(event, size)
             elif event.type not in _MOUSE or not getattr(event, "touch", False):
-                found.append(event)
-        return found
+                pointed.append(event)
+        return pointed
 
     def _of_finger(self, event: Event, size: tuple[int, int]) -> list[Event]:
-        at = _place(event, size) or self._down.get(event.finger_id)
+        at = _pixel(event, size) or self._down.get(event.finger_id)
         if at is None:
             return []
         if event.type == pygame.FINGERDOWN:
@@ -169,7 +169,7 @@ class Fingers:
         return dist(*places[:2]) if len(places) > 1 else 0.0
 
 
-def _place(event: Event, size: tuple[int, int]) -> Place | None:
+def _pixel(event: Event, size: tuple[int, int]) -> Place | None:
     """Return the pixel under a finger, moved into the window; None where it is not a number."""
     if isnan(event.x) or isnan(event.y):
         return None
@@ -332,11 +332,11 @@ class Mouse:
             return self._pressed_long(screen)
         height = screen.size[1]
         gesture = Gesture(kind, notches, ((self.at[0] - x) / height, (self.at[1] - y) / height), _coarser())
-        found = self._on_the_bar(gesture, screen)
-        stirred = (Action("stir"),) * (kind in ("move", "down") and self.drag in (None, "bar", "speed"))
-        return (*stirred, *(self._elsewhere(gesture, screen) if found is None else found))
+        actions = self._on_the_bar(gesture, screen)
+        moved = (Action("mouse_moved"),) * (kind in ("move", "down") and self.drag in (None, "bar", "speed"))
+        return (*moved, *(self._off_the_bar(gesture, screen) if actions is None else actions))
 
-    def _elsewhere(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
+    def _off_the_bar(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a gesture on anything that lies below the bar."""
         if gesture.kind == "down" and screen.target_at("toast", *self.at):
             self.drag = "bar"
@@ -346,8 +346,8 @@ class Mouse:
         if self.drag == "slider" or (gesture.kind == "down" and screen.target_at("slider", *self.at)):
             return self._on_the_slider(gesture, screen)
         top = screen.state.top
-        if top and (found := top.mouse(gesture, self, screen)) is not None:
-            return found
+        if top and (actions := top.mouse(gesture, self, screen)) is not None:
+            return actions
         return self._on_the_picture(gesture, screen)
 
     def _menu(self, screen: Screen) -> tuple[Action, ...]:
@@ -361,14 +361,14 @@ class Mouse:
         if screen.state.top and (asked := screen.state.top.menu(self, screen)) is not None:
             return asked
         if screen.state.mode in _THINGS_IN and (
-            found := screen.pointed(*self.at, NEAR_HAND * screen.size[1])
+            thing := screen.pointed(*self.at, NEAR_HAND * screen.size[1])
         ):
-            of_scene = found.thing and found.thing.kind != "row"
-            words = f"{found.thing.kind} {found.thing.name}" if found.thing and of_scene else ""
+            of_scene = thing.thing and thing.thing.kind != "row"
+            words = f"{thing.thing.kind} {thing.thing.name}" if thing.thing and of_scene else ""
             return (Action("menu", words or ("chart" if screen.charted(*self.at) is not None else None)),)
         return (Action("menu", "chart" if screen.charted(*self.at) is not None else None),)
 
-    def held(self, screen: Screen) -> tuple[Action, ...]:
+    def long_press(self, screen: Screen) -> tuple[Action, ...]:
         """Return the action of a button or finger that is held still for long: it opens a list."""
         is_new, self._is_long = not self._is_long, self._presses_long(screen)
         return (Action("hint", _LET_GO_FOR),) if self._is_long and is_new else ()
@@ -469,15 +469,15 @@ class Mouse:
 
     def _on_a_row(self, screen: Screen) -> str | None:
         """Return the label of the row of numbers under the mouse; None elsewhere."""
-        found = screen.pointed(*self.at, NEAR_HAND * screen.size[1]) if self.drag is None else None
-        return found.thing.name if found and found.thing and found.thing.kind == "row" else None
+        thing = screen.pointed(*self.at, NEAR_HAND * screen.size[1]) if self.drag is None else None
+        return thing.thing.name if thing and thing.thing and thing.thing.kind == "row" else None
 
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list under the mouse; None before the mouse was seen."""
         if not self._seen or self.drag not in (None, "row") or screen.over.shelf:
             return None
-        found = screen.option_at if screen.state.mode == "game" else screen.row_at
-        row = found(*self.at)
+        number_at = screen.option_at if screen.state.mode == "game" else screen.row_at
+        row = number_at(*self.at)
         return row if row is not None and row >= 0 else None
 
     def hovered(self, screen: Screen) -> str | None:
@@ -569,8 +569,8 @@ class Outside(Protocol):
     def lesson_step(self, further: int) -> Action:
         """Return the action that shows the lesson's step so many steps further on, or a note."""
 
-    def proposed_places(self) -> str:
+    def proposed_targets(self) -> str:
         """Return the current folder and places in it to write to, one a line."""
 
-    def refused_place(self, file: str) -> str:
+    def refused_target(self, file: str) -> str:
         """Return why nothing can be recorded into a file; else remember its folder, and return nothing."""

@@ -252,7 +252,7 @@ def erase(state: State, _: None) -> State:
     return replace(state, editing=cleared(editing, typed=(editing.typed or draft)[:-1], drafts=others))
 
 
-def take(state: State, _: None) -> State:
+def accept(state: State, _: None) -> State:
     """Take all typed values at once, or say why not.
 
     Lengths without a unit are in the shown unit, or in the scene's own where none is shown.
@@ -304,12 +304,12 @@ def reset(state: State, _: None) -> State:
 
 def edit_at(state: State, joint: str) -> State:
     """Open the list at the first dimension that follows a joint; say so where none does."""
-    found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
-    if not found:
+    own = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
+    if not own:
         return with_toast(state, f"no dimension of its own places joint {joint}")
     state = state if state.edits_dimensions else edit(state, None)
     keys = [item.key for item in dimensions(state.scene)]
-    return choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
+    return choose(replace(state, editing=replace(state.editing, chosen=keys.index(own[0].key))), 0)
 
 
 def edit_row(state: State, row: int) -> State:
@@ -358,12 +358,12 @@ def grab(state: State, joint: str) -> State:
     if not state.edits_dimensions:
         return _grasped(state, joint)
     keys = [item.key for item in dimensions(state.scene)]
-    found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
-    if not state.edits_dimensions or not found:
+    own = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
+    if not state.edits_dimensions or not own:
         return state
     held = Held(joint, state.scene, state.phase, not state.clock.paused)
     state = drop(state, None)
-    state = choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
+    state = choose(replace(state, editing=replace(state.editing, chosen=keys.index(own[0].key))), 0)
     return replace(state, held=held, clock=state.clock.pause(state.frame, True), glide=None)
 
 
@@ -469,12 +469,12 @@ def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
 def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key, str]:
     """Return the dimensions that put the joint near a point, in whole steps of their units times `share`."""
     places = held.scene.pose(held.phase, 0).position
-    found = {}
+    values = {}
     for handle, unit in held.following:
         step = _step_of(unit) * Decimal(repr(share))
         value = step * round(Decimal(repr(dragged(handle, places, point))) / step)
-        found[handle.key] = f"{value.normalize():f}"
-    return found
+        values[handle.key] = f"{value.normalize():f}"
+    return values
 
 
 def nudged(item: Dimension, steps: int) -> str:
@@ -554,8 +554,8 @@ _PULL = 0.011
 _MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
 """The tool that is in hand beside the list."""
 _INSTEAD: Mapping[Action, tuple[Action, ...]] = {
-    Action("unbuild"): (Action("undo"),),
-    Action("rebuild"): (Action("redo"),),
+    Action("undo_sheet"): (Action("undo"),),
+    Action("redo_sheet"): (Action("redo"),),
     Action("tool", "move"): (),
 }
 """What tools mean beside the list, where joints can be moved already."""
@@ -652,7 +652,7 @@ class Dimensions(Mode):
         "nudge": Rule(rules.whole, nudge),
         "type": Rule(rules.text, write),
         "erase": Rule(rules.nothing, erase),
-        "take": Rule(rules.nothing, take),
+        "take": Rule(rules.nothing, accept),
         "grab_row": Rule(rules.whole, grab_row),  # a row of the list
         "pull": Rule(rules.whole, pull),  # steps from the value that was taken hold of
     }

@@ -39,7 +39,7 @@ def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
     return next(stem for stem in stems if not any((folder / (stem + suffix)).exists() for suffix in suffixes))
 
 
-def places(name: str, last: str | None = None) -> tuple[str, ...]:
+def free_targets(name: str, last: str | None = None) -> tuple[str, ...]:
     """Return places for a recording, without endings and all free: in the `last` folder, if there is one.
 
     The others are in recordings/, in the current folder and in the user's folder of films.
@@ -98,7 +98,7 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
     return atomic_files.add(data, first, others)
 
 
-def beside(file: str) -> str:
+def relative(file: str) -> str:
     """Return a file's path relative to the current folder if it lies in it, else the path as it is."""
     path = Path(from_anywhere(file))
     with suppress(OSError, ValueError):  # the current folder is gone, or the file lies elsewhere
@@ -145,8 +145,8 @@ class SceneFile:
     def _state(self) -> tuple[int, int, int] | None:
         """Return numbers that change when the file is written anew; None where there is no file."""
         with suppress(OSError):
-            found = self.path.stat()
-            return found.st_mtime_ns, found.st_size, found.st_ino
+            status = self.path.stat()
+            return status.st_mtime_ns, status.st_size, status.st_ino
         return None
 
 
@@ -219,13 +219,13 @@ def scene_files() -> tuple[OwnFile, ...]:
 
     At most the newest three hundred are returned.
     """
-    found: list[tuple[float, str]] = []
+    files: list[tuple[float, str]] = []
     with suppress(OSError), os.scandir() as entries:
         for one in entries:
             if one.name.lower().endswith(OPENED) and one.name.isprintable():
                 with suppress(OSError):
-                    found.append((-one.stat().st_mtime, one.name))
-    return tuple(OwnFile(name, _date(-newest)) for newest, name in sorted(found)[:_MOST_FILES])
+                    files.append((-one.stat().st_mtime, one.name))
+    return tuple(OwnFile(name, _date(-newest)) for newest, name in sorted(files)[:_MOST_FILES])
 
 
 def _date(seconds: float) -> str:
@@ -258,7 +258,7 @@ class DraftFile:
 
         A damaged file, or one of another version, is set aside. WorkFailed where it cannot be read.
         """
-        path = self._taken(there=True)
+        path = self._claimed(there=True)
         if path is None:
             return state, None
         where = intake.named(path)
@@ -275,9 +275,9 @@ class DraftFile:
 
     def waits(self) -> bool:
         """Tell whether another window left a draft, which stays where it is."""
-        found = self._taken(there=True) is not None
+        is_there = self._claimed(there=True) is not None
         self.close()
-        return found
+        return is_there
 
     def keep(self, sheet: BuildSheet | None) -> None:
         """Write the draft of a sheet if it has changed; remove the file where no draft would be lost.
@@ -287,7 +287,7 @@ class DraftFile:
         draft = None if sheet is None or sheet.is_written else sheet.lasting.draft
         if draft is self._kept:
             return
-        path = self._path or self._taken(there=False)
+        path = self._path or self._claimed(there=False)
         if path is None:
             raise WorkFailed(f"{self._first}: {_MOST} windows have a draft; close one")
         if draft is None or sheet is None:
@@ -303,7 +303,7 @@ class DraftFile:
             self._claim.release()
         self._claim = self._path = None
 
-    def _taken(self, *, there: bool) -> Path | None:
+    def _claimed(self, *, there: bool) -> Path | None:
         """Claim and return the first file that no open window has; `there` says whether it must exist.
 
         None where there is no such file.

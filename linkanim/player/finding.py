@@ -67,11 +67,11 @@ def _all(state: State) -> Iterator[ListRow]:
         yield from (_row(one, "its commands", Action("menu", one)) for one in things(state.scene))
 
 
-def _row(words: str, beside: str, action: Action, *more: str) -> ListRow:
+def _row(words: str, key: str, action: Action, *more: str) -> ListRow:
     """Return a row that is found by its words, what stands beside it, `more`, and words like these."""
-    texts = (words, beside, beside.translate(_TYPED), *more)
+    texts = (words, key, key.translate(_TYPED), *more)
     plain = " ".join(texts).casefold()
-    return ListRow(words, beside, action, (*texts, *(also for one, also in _ALIKE.items() if one in plain)))
+    return ListRow(words, key, action, (*texts, *(also for one, also in _ALIKE.items() if one in plain)))
 
 
 def _facts(scene: Scene) -> Iterator[ListRow]:
@@ -114,11 +114,11 @@ class Finder(Listing):
             "in Ctrl+K": (
                 KeyRow("type", "any words of a command, quantity, mechanism, dimension or fact"),
                 KeyRow("↑ ↓", "choose", both("up", "down", "move") + both("pageup", "pagedown", "move", 10)),
-                KeyRow("Enter, click", "do it: chart, show, edit, go there", enter("pick", "unsift")),
+                KeyRow("Enter, click", "do it: chart, show, edit, go there", enter("pick", "erase_filter")),
                 KeyRow("Ctrl+K, Esc", "close", on("ctrl+k", "find")),
             )
         },
-        TypedKeys("sift"),
+        TypedKeys("filter"),
     )
     actions: ClassVar[Mapping[str, Rule]] = {
         **Listing.actions,
@@ -127,5 +127,5 @@ class Finder(Listing):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the field, in the place of any other list."""
-        found = super().shown(state, over)
-        return replace(found, quantities=found.quantities and replace(found.quantities, hint=_HINT))
+        overlay = super().shown(state, over)
+        return replace(overlay, quantities=overlay.quantities and replace(overlay.quantities, hint=_HINT))

@@ -48,7 +48,7 @@ class Framed(NamedTuple):
 def framed(state: State, *, window: bool = True) -> Framed:
     """Return what the picture of a state is fitted to; only in a `window` are there tools beside a list."""
     sketch, sheet = state.sketch, state.building
-    kept = _kept(sketch) if sketch else None
+    kept = _fitted_to(sketch) if sketch else None
     tools = window and state.top is not None and state.top.has_tools and state.listed
     head = state.constructed > 0 or any(one.has_head for one in state.modes)
     row = kept is not None and bool(kept.answers)
@@ -57,21 +57,21 @@ def framed(state: State, *, window: bool = True) -> Framed:
         state.shown,
         _look(state),
         docked,
-        _placed(state),
+        _before_change(state),
         sheet.home if sheet else state.home,
         _included(state, kept),
     )
 
 
-def _kept(sketch: Sketch) -> Sketch | None:
+def _fitted_to(sketch: Sketch) -> Sketch | None:
     """Return the sketch to which the view is fitted: while something is drawn or held, the one before."""
-    found = sketch.earlier if sketch.held is not None else sketch.at_rest
-    while found is not None and found.at_rest.is_blank:
-        found = found.earlier
-    return found
+    shown = sketch.earlier if sketch.held is not None else sketch.at_rest
+    while shown is not None and shown.at_rest.is_blank:
+        shown = shown.earlier
+    return shown
 
 
-def _placed(state: State) -> Scene | None:
+def _before_change(state: State) -> Scene | None:
     """Return the scene as it was when it began to change, in a hand or gliding; None where it does not."""
     if isinstance(state.glide, Glide):
         return state.glide.placed
@@ -97,9 +97,9 @@ def _included(state: State, sketch: Sketch | None) -> tuple[complex, ...]:
         x, y = sketch.points.real, sketch.points.imag
         return complex(float(x.min()), float(y.min())), complex(float(x.max()), float(y.max()))
     if state.constructed and state.clock.paused:
-        from linkanim.picture.constructed import found_by
+        from linkanim.picture.constructed import points_up_to
 
-        return found_by(state.shown, state.constructed, state.phase)
+        return points_up_to(state.shown, state.constructed, state.phase)
     return state.also
 
 
@@ -108,20 +108,20 @@ def departed(before: State, state: State) -> State:
 
     Another linkage, zoom or sheet is there at once.
     """
-    found = tuple(one for one in state.departures if not one.is_over(state.frame))
+    departures = tuple(one for one in state.departures if not one.is_over(state.frame))
     fades = state.faded == state.frame
     was, now = framed(before).of_view, framed(state).of_view
     if not _is_seen_as_one(before, state):
-        found = tuple(one for one in found if one.fades)
+        departures = tuple(one for one in departures if one.fades)
     elif was != now or before.listed != state.listed:
         glides = state.glide if state.glide and state.glide.since == state.frame else None
         frames = glides.frames if glides else MOVE_FRAMES
-        found = (*found, Departure(_bare(before), since=state.frame, frames=frames))
+        departures = (*departures, Departure(_bare(before), since=state.frame, frames=frames))
     if fades:
-        found = tuple(one for one in found if not one.fades)
-        found = (*found, Departure(_bare(before, _moves(before)), True, since=state.frame))
-    found = () if state.reduced_motion else found
-    return state if found == state.departures else replace(state, departures=found)
+        departures = tuple(one for one in departures if not one.fades)
+        departures = (*departures, Departure(_bare(before, _moves(before)), True, since=state.frame))
+    departures = () if state.reduced_motion else departures
+    return state if departures == state.departures else replace(state, departures=departures)
 
 
 def _bare(state: State, moves: Iterable[Departure] = ()) -> State:
@@ -208,8 +208,8 @@ _WHITE = 0.7
 
 def fading(state: State) -> tuple[State, int] | None:
     """Return the state whose picture fades, and its opacity, 0 to 255; None where none does."""
-    found = next((one for one in state.departures if one.fades), None)
-    return (found.left, round(255 * (1.0 - found.share(state.frame)))) if found else None
+    departure = next((one for one in state.departures if one.fades), None)
+    return (departure.left, round(255 * (1.0 - departure.share(state.frame)))) if departure else None
 
 
 def flash(surface: pygame.Surface, eighths: int) -> None:

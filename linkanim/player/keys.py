@@ -51,8 +51,8 @@ def _of_look(name: str) -> tuple[Bind, ...]:
 
 def _looks(subject: str) -> tuple[KeyRow, ...]:
     """Return the lines of the look's fields under a subject."""
-    found = ((name, toggle) for name, toggle in TOGGLES.items() if toggle.subject == subject)
-    return tuple(KeyRow(", ".join(one.keys).upper(), one.title, _of_look(name)) for name, one in found)
+    toggles = ((name, toggle) for name, toggle in TOGGLES.items() if toggle.subject == subject)
+    return tuple(KeyRow(", ".join(one.keys).upper(), one.title, _of_look(name)) for name, one in toggles)
 
 
 def both(less: str, more: str, name: str, by: int = 1, *, held: bool = True) -> tuple[Bind, ...]:
@@ -354,9 +354,9 @@ def bind_of(
     if mode.typed and _is_typed(press, mode.typed, typing, valued=valued):
         return Bind(press.key, Action(mode.typed.action, press.text), repeats=True)
     tables = (mode.table, {} if mode.alone else KEYS)
-    found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
+    binds = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
     others = Bind(press.key, mode.others) if mode.others and press.text and not press.ctrl else None
-    return next(found, others)
+    return next(binds, others)
 
 
 def _is_typed(press: Press, typed: TypedKeys, typing: bool, *, valued: bool) -> bool:
@@ -400,7 +400,7 @@ BESIDE_GAMES = frozenset(
 _NEEDS_KEYS = frozenset(
     {
         *("aim", "enter", "type_place", "erase_place", "go"),
-        *("erase", "undigit", "unsift", "erase_name", "take_untype"),
+        *("erase", "erase_number", "erase_filter", "erase_name", "erase_target"),
     }
 )
 """Actions that make no sense in a list: they move what only keys move, or erase what is typed."""
@@ -490,8 +490,8 @@ _APART: Mapping[Action, str] = {
     Action("save_as"): "save under another name",
     Action("files_here"): "open a scene file of this folder",
     Action("reload"): "load the scene's file again",
-    Action("unbuild"): "undo",
-    Action("rebuild"): "redo",
+    Action("undo_sheet"): "undo",
+    Action("redo_sheet"): "redo",
     Action("number", -1): "the value above it",
     Action("number", 1): "the value below it",
     Action("choose", -1): "the dimension above",
@@ -565,7 +565,7 @@ def commands(mode: ModeKeys) -> tuple[tuple[str, str, Action], ...]:
     The key is empty where all keys of a command mean something else in the mode.
     """
     above: set[str] = set()
-    found: dict[Action, tuple[str, str, Action]] = {}
+    named: dict[Action, tuple[str, str, Action]] = {}
     usual = () if mode.alone else tuple(_rows(KEYS))
     for n, rows in enumerate((*mode.table.values(), usual)):
         for one, bind in ((row, bind) for row in rows for bind in row.binds):
@@ -573,12 +573,12 @@ def commands(mode: ModeKeys) -> tuple[tuple[str, str, Action], ...]:
                 below = bind.key in above or (n > 0 and _types(bind.key, mode))
                 key = "" if below else _as_written(bind.key)
                 apart = mode.names.get(bind.action, _APART.get(bind.action, one.words))
-                words, known, _ = found.get(bind.action, (apart, "", bind.action))
-                found[bind.action] = (words, known or key, bind.action)
+                words, known, _ = named.get(bind.action, (apart, "", bind.action))
+                named[bind.action] = (words, known or key, bind.action)
         above |= {bind.key for row in rows for bind in row.binds}
     # a mode's own command replaces the general one of the same name
-    by_name = {words: action for words, _, action in reversed(found.values())}
-    return tuple(one for one in found.values() if by_name[one[0]] == one[-1])
+    by_name = {words: action for words, _, action in reversed(named.values())}
+    return tuple(one for one in named.values() if by_name[one[0]] == one[-1])
 
 
 def _types(key: str, mode: ModeKeys) -> bool:

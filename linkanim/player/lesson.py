@@ -349,19 +349,19 @@ def _caption(state: State, _: None) -> State:
 
 
 def _write(state: State, text: str) -> State:
-    found = state.of(CaptionLine)
-    return state.with_mode(replace(found, typed=(found.typed + text)[:_LONGEST])) if found else state
+    line = state.of(CaptionLine)
+    return state.with_mode(replace(line, typed=(line.typed + text)[:_LONGEST])) if line else state
 
 
 def _erase(state: State, _: None) -> State:
-    found = state.of(CaptionLine)
-    return state.with_mode(replace(found, typed=found.typed[:-1])) if found else state
+    line = state.of(CaptionLine)
+    return state.with_mode(replace(line, typed=line.typed[:-1])) if line else state
 
 
-def _take(state: State, _: None) -> State:
+def _keep_caption(state: State, _: None) -> State:
     """Keep the step with the caption."""
-    found = state.of(CaptionLine)
-    return with_effect(found.closed(state), "keep_step", found.typed.strip()) if found else state
+    line = state.of(CaptionLine)
+    return with_effect(line.closed(state), "keep_step", line.typed.strip()) if line else state
 
 
 def keep(state: State, _: None) -> State:
@@ -402,7 +402,7 @@ class CaptionLine(Mode):
         "caption_step": Rule(rules.nothing, _caption, taped=False),
         "write_caption": Rule(rules.text, _write, taped=False),
         "erase_caption": Rule(rules.nothing, _erase, taped=False),
-        "take_caption": Rule(rules.nothing, _take, taped=False),
+        "take_caption": Rule(rules.nothing, _keep_caption, taped=False),
         "lesson_on": Rule(rules.whole, lambda state, _: state, taped=False),  # steps; resolved to "stage"
         "lesson_off": Rule(rules.nothing, leave),
         "stage": Rule(rules.text, stage, answer=answer),  # a whole step

@@ -12,7 +12,7 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity
-from linkanim.picture.overlay import Overlay, Quantities, sifted
+from linkanim.picture.overlay import Overlay, Quantities, filtered
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
@@ -33,10 +33,10 @@ _READ, _NEAR = 15, 80
 """How many frames a value stands, and how many rows near the chosen one have one."""
 
 
-def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
-    """Return the tokens of the quantities with a value that have all the sieve's words, key ones first."""
-    found = {token: quantity(scene, token) for token in scene.valued}
-    return sifted({token: (token, one.words, one.symbol) for token, one in found.items()}, sieve)
+def listed(scene: Scene, typed: str) -> tuple[str, ...]:
+    """Return the tokens of the quantities with a value that have all the typed words, key ones first."""
+    quantities = {token: quantity(scene, token) for token in scene.valued}
+    return filtered({token: (token, one.words, one.symbol) for token, one in quantities.items()}, typed)
 
 
 def _toggle(state: State, below: str | None) -> State:
@@ -72,27 +72,27 @@ def _move(state: State, further: int) -> State:
     listing = state.of(Listing)
     if listing is None:
         return state
-    last = max(len(listing.found(state.scene)) - 1, 0)
+    last = max(len(listing.matches(state.scene)) - 1, 0)
     return state.with_mode(replace(listing, chosen=min(max(listing.chosen + further, 0), last)))
 
 
-def _sift(state: State, text: str) -> State:
+def _filter(state: State, text: str) -> State:
     """Add letters to what the list is searched for; it goes to its top."""
-    return _relisted(state, lambda sieve: (sieve + text)[:_LONGEST])
+    return _relisted(state, lambda typed: (typed + text)[:_LONGEST])
 
 
-def _unsift(state: State, _: None) -> State:
+def _erase_filter(state: State, _: None) -> State:
     """Take the last letter off what the list is searched for; it goes to its top."""
-    return _relisted(state, lambda sieve: sieve[:-1])
+    return _relisted(state, lambda typed: typed[:-1])
 
 
 def _relisted(state: State, work: Callable[[str], str]) -> State:
     listing = state.of(Listing)
     if listing is None:
         return state
-    sieve, others = work(listing.sieve), listing.others
-    others = others and replace(others, sieve=sieve)
-    return state.with_mode(replace(listing, chosen=0, sieve=sieve, others=others))
+    typed, others = work(listing.typed), listing.others
+    others = others and replace(others, typed=typed)
+    return state.with_mode(replace(listing, chosen=0, typed=typed, others=others))
 
 
 def _pick(window: Outside, row: Value) -> Iterator[Action]:
@@ -108,7 +108,7 @@ def _tick(window: Outside, row: Value) -> Iterator[Action]:
     listing = window.state.of(Listing)
     if listing and listing.others is None:
         row = row if isinstance(row, int) else listing.chosen
-        yield from (Action("strip", token) for token in listing.found(window.state.scene)[row : row + 1])
+        yield from (Action("strip", token) for token in listing.matches(window.state.scene)[row : row + 1])
 
 
 def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
@@ -116,8 +116,8 @@ def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
 
     A crank's angle is given within one turn, as in the HUD.
     """
-    found = one.shown(pose)
-    parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
+    value = one.shown(pose)
+    parts = value if isinstance(value, tuple | list | np.ndarray) and np.ndim(value) else (value,)
     if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
         parts = tuple(float(significant(float(part) % 360, 4)) % 360 for part in parts)
     values = ", ".join(four_digits(float(part)) for part in parts if part is not None)
@@ -137,7 +137,7 @@ class Listing(Mode):
     """
 
     chosen: int
-    sieve: str = ""
+    typed: str = ""
     others: Entries | None = None
     adds: bool = False
 
@@ -151,7 +151,7 @@ class Listing(Mode):
                     both("up", "down", "move") + both("pageup", "pagedown", "move", 10),
                 ),
                 KeyRow("type", "filter by name"),
-                KeyRow("Enter, click", "chart it", enter("pick", "unsift")),
+                KeyRow("Enter, click", "chart it", enter("pick", "erase_filter")),
                 KeyRow(
                     "Ctrl+Enter, its box",
                     "chart it below the others; off again",
@@ -159,7 +159,7 @@ class Listing(Mode):
                 ),
             )
         },
-        TypedKeys("sift", frozenset({"space", "h", "k"})),
+        TypedKeys("filter", frozenset({"space", "h", "k"})),
     )
     bar = LISTED_BAR
     actions: ClassVar[Mapping[str, Rule]] = {
@@ -168,8 +168,8 @@ class Listing(Mode):
             rules.words_or_none, _menu, taped=False
         ),  # some commands, as `commands.menu_of` has them
         "move": Rule(rules.whole, _move, taped=False),  # rows
-        "sift": Rule(rules.text, _sift, taped=False),
-        "unsift": Rule(rules.nothing, _unsift, taped=False),
+        "filter": Rule(rules.text, _filter, taped=False),
+        "erase_filter": Rule(rules.nothing, _erase_filter, taped=False),
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"pick": _pick, "tick": _tick}
     is_listed, gives_way, leads = True, True, True
@@ -177,25 +177,25 @@ class Listing(Mode):
     def typing(self, state: State) -> bool:
         """Return whether the list is filtered."""
         del state
-        return bool(self.sieve)
+        return bool(self.typed)
 
     @property
     def title(self) -> str:
         """The title of a list of others."""
         return self.others.title if self.others else ""
 
-    def found(self, scene: Scene) -> tuple[str, ...]:
-        """Return the tokens of quantities, or the words of others, that have all the sieve's words."""
+    def matches(self, scene: Scene) -> tuple[str, ...]:
+        """Return the tokens of quantities, or the words of others, that have all the typed words."""
         if self.others is None:
-            return listed(scene, self.sieve)
-        return tuple(one.words for one in self.others.found)
+            return listed(scene, self.typed)
+        return tuple(one.words for one in self.others.matches)
 
     def asked(self, scene: Scene, row: int) -> Action | None:
         """Return the action of a row; None where there is no such row."""
         if self.others is not None:
-            return next((one.action for one in self.others.found[row : row + 1]), None)
+            return next((one.action for one in self.others.matches[row : row + 1]), None)
         charts = "strip" if self.adds else "plot"
-        return next((Action(charts, token) for token in self.found(scene)[row : row + 1]), None)
+        return next((Action(charts, token) for token in self.matches(scene)[row : row + 1]), None)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list, in the place of any other."""
@@ -205,19 +205,19 @@ class Listing(Mode):
     def _rows(self, state: State) -> Quantities:
         scene = state.displayed
         if others := self.others:
-            return Quantities(others.rows, self.chosen, self.sieve, _OTHERS_HINT, title=others.title)
-        found = [quantity(scene, token) for token in self.found(scene)]
+            return Quantities(others.rows, self.chosen, self.typed, _OTHERS_HINT, title=others.title)
+        quantities = [quantity(scene, token) for token in self.matches(scene)]
         # Values change four times a second: faster ones cannot be read, and each change costs a drawing.
         pose = scene.pose(state.phase_at(state.frame // _READ * _READ), speed=state.clock.speed)
         near = range(self.chosen - _NEAR, self.chosen + _NEAR)
         rows = tuple(
             (one.words, value_words(scene, one, pose) if n in near or n < _NEAR else one.symbol)
-            for n, one in enumerate(found)
+            for n, one in enumerate(quantities)
         )
         charted = chart_tokens(scene, state.look.chart)
-        boxes = tuple(one.token in charted for one in found)
+        boxes = tuple(one.token in charted for one in quantities)
         title, hint = ("Another chart below", _OTHERS_HINT) if self.adds else ("Quantities", _HINT)
-        return Quantities(rows, self.chosen, self.sieve, hint, title=title, boxes=boxes)
+        return Quantities(rows, self.chosen, self.typed, hint, title=title, boxes=boxes)
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions on the list of a click, the wheel or its scroll bar; None off it."""

@@ -71,7 +71,7 @@ def asked(state: State) -> State:
     return with_effect(state.with_mode(Layering(state.scene, lifted=lifted)), "layers")
 
 
-def found(state: State, text: str) -> State:
+def show_layers(state: State, text: str) -> State:
     """Show the layers that `linkanim make --json` has printed, or say why there are none."""
     shown = state.of(Layering)
     if shown is None:
@@ -241,11 +241,11 @@ def _point(part: Section, key: str) -> complex:
 
 def _rows(part: Section, key: str, count: int) -> list[tuple[float, ...]]:
     rows = part.listed(key)
-    found = []
+    result = []
     for row in rows.values:
         items = rows.listed(row, count)
-        found.append(tuple(items.number(item) for item in items.values))
-    return found
+        result.append(tuple(items.number(item) for item in items.values))
+    return result
 
 
 def _circle(row: tuple[float, ...]) -> tuple[complex, float]:
@@ -299,7 +299,7 @@ class Layering(Mode):
     )
     actions: ClassVar[Mapping[str, Rule]] = {
         "layers": Rule(rules.nothing, layers),
-        "layered": Rule(rules.text, found),  # the layers as `linkanim make --json` prints them
+        "layered": Rule(rules.text, show_layers),  # the layers as `linkanim make --json` prints them
         "lift": Rule(rules.whole, lift),  # steps
     }
     has_head, is_paper = True, True

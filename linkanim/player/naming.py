@@ -31,7 +31,7 @@ def _named(state: State, work: Callable[[Naming], str]) -> State:
     return state.with_mode(replace(naming, typed=work(naming), refusal="")) if naming else state
 
 
-def take(state: State, _: None) -> State:
+def save(state: State, _: None) -> State:
     """Write the scene under the name, and close the question."""
     naming = state.of(Naming)
     return with_effect(naming.closed(state), "save_new", naming.name) if naming else state
@@ -62,7 +62,7 @@ class Naming(Mode):
     actions: ClassVar[Mapping[str, Rule]] = {
         "write_name": Rule(rules.text, write, taped=False),
         "erase_name": Rule(rules.nothing, erase, taped=False),
-        "take_name": Rule(rules.nothing, take, taped=False),
+        "take_name": Rule(rules.nothing, save, taped=False),
     }
 
     @property

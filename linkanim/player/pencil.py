@@ -31,7 +31,15 @@ from linkanim.player.keys import (
     enter,
     on,
 )
-from linkanim.player.sketching import ACTIONS, Sketching, left, released, row_of, sketching, taken
+from linkanim.player.sketching import (
+    ACTIONS,
+    Sketching,
+    leave_sketch,
+    released,
+    row_of,
+    sketching,
+    with_answers,
+)
 from linkanim.player.state import (
     DIAL,
     NEAR_HAND,
@@ -64,8 +72,8 @@ MOST_POINTS = 5_000
 def pencil(state: State, _: None) -> State:
     """Take the pencil, or put it down and go back to the scene from before."""
     if state.drawing:
-        return left(state)
-    state = drop(left(state), None)
+        return leave_sketch(state)
+    state = drop(leave_sketch(state), None)
     editing = state.editing
     sketch = Pencil(state.scene, state.clock, nothing_begun(editing), state.displayed.length_unit)
     bare = state.unlisted.without(Dimensions)
@@ -78,7 +86,7 @@ def own(state: State, _: None) -> State:
     from linkanim.mechanics.measures import as_complex
     from linkanim.synthesis.curves import trace_of
 
-    state = left(state)
+    state = leave_sketch(state)
     scene = state.scene
     if not scene.trace:
         return with_toast(state, f"{scene.name} has no trace to take; W draws a path")
@@ -144,7 +152,7 @@ def answers_(state: State, numbers: tuple[float, ...]) -> State:
     """Take all answers from an older tape, which has no sizes and angles for them."""
     from linkanim.synthesis.answers import EARLIER
 
-    return taken(state, round(numbers[0]), _answers_of(numbers[1:], EARLIER))
+    return with_answers(state, round(numbers[0]), _answers_of(numbers[1:], EARLIER))
 
 
 def cards(state: State, numbers: tuple[float, ...]) -> State:
@@ -155,12 +163,12 @@ def cards(state: State, numbers: tuple[float, ...]) -> State:
     from linkanim.synthesis.answers import NUMBERS
     from linkanim.synthesis.front import names_of
 
-    sketch, first, found = state.drawing, round(numbers[0]), _answers_of(numbers[1:], NUMBERS)
+    sketch, first, answers = state.drawing, round(numbers[0]), _answers_of(numbers[1:], NUMBERS)
     if sketch and sketch.picked and isinstance(sketch.answer, tuple):
-        found = (*found, *([] if sketch.answer in found else [sketch.answer]))
-        first = found.index(sketch.answer)
-    after = taken(state, first, found)
-    if after is state or after.drawing is None or not all(one.size > 0 for one in found):
+        answers = (*answers, *([] if sketch.answer in answers else [sketch.answer]))
+        first = answers.index(sketch.answer)
+    after = with_answers(state, first, answers)
+    if after is state or after.drawing is None or not all(one.size > 0 for one in answers):
         return after
     kept = [one for one in after.drawing.answers if not isinstance(one, Scene)]
     own = len(after.drawing.answers) - len(kept)
@@ -182,30 +190,32 @@ def _answers_of(numbers: tuple[float, ...], each: int) -> tuple[PathAnswer, ...]
     return tuple(answer_from(numbers[n : n + each]) for n in range(0, len(numbers), each))
 
 
-def take_point(state: State, point: int) -> State:
+def grasp_point(state: State, point: int) -> State:
     """Take hold of a point of the stroke."""
     sketch = state.drawing
     if sketch is None or sketch.curve is None or not 0 <= point < len(sketch.curve.points):
         return state
-    return _held(state, sketch, point)
+    return _grasped(state, sketch, point)
 
 
-def take_pivot(state: State, pivot: str) -> State:
+def grasp_pivot(state: State, pivot: str) -> State:
     """Take hold of a fixed pin of the answer that is shown."""
     sketch = state.drawing
     if sketch is None or pivot not in PIVOTS or sketch.answer is None or isinstance(sketch.answer, Scene):
         return state
-    return _held(state, sketch, pivot)
+    return _grasped(state, sketch, pivot)
 
 
-def _held(state: State, sketch: PathSketch, held: int | str) -> State:
+def _grasped(state: State, sketch: PathSketch, held: int | str) -> State:
     """Return the state with a part of a sketch grasped; what the dial shows becomes an answer."""
-    found = sketch.undialled
+    held_sketch = sketch.undialled
     if sketch.dialled:
         answers = (*sketch.answers[: sketch.chosen], sketch.dialled, *sketch.answers[sketch.chosen + 1 :])
-        found = replace(found, answers=answers)
-    found = replace(found, way=(), names=(), picked=False, held=held, base=state.scene, earlier=sketch)
-    return replace(state.with_mode(found), glide=None)
+        held_sketch = replace(held_sketch, answers=answers)
+    held_sketch = replace(
+        held_sketch, way=(), names=(), picked=False, held=held, base=state.scene, earlier=sketch
+    )
+    return replace(state.with_mode(held_sketch), glide=None)
 
 
 def lead(state: State, to: tuple[float, float]) -> State:
@@ -234,16 +244,16 @@ def _without_own(sketch: PathSketch) -> dict[str, object]:
 def cognate(state: State, place: int) -> State:
     """Show a cognate of the answer instead of it: one of those that turn fully."""
     sketch = state.drawing
-    found = [one for one in sketch.cognates if one] if sketch else []
-    if sketch is None or not 0 <= place < len(found):
+    cognates = [one for one in sketch.cognates if one] if sketch else []
+    if sketch is None or not 0 <= place < len(cognates):
         return with_toast(state, "none of its cognates turns fully") if sketch and sketch.follows else state
     from linkanim.synthesis.front import names_of
 
-    answers = (*sketch.answers[: sketch.chosen], found[place], *sketch.answers[sketch.chosen + 1 :])
+    answers = (*sketch.answers[: sketch.chosen], cognates[place], *sketch.answers[sketch.chosen + 1 :])
     figures = [one.figures for one in answers if isinstance(one, tuple) and one.size > 0]
     names = names_of(figures) if len(figures) == len(answers) == len(sketch.names) else ()
     taken = replace(sketch.undialled, answers=answers, names=names, picked=True, earlier=sketch)
-    state = replace(exchanged(state, taken.scene_of(found[place])), glide=None, faded=state.frame)
+    state = replace(exchanged(state, taken.scene_of(cognates[place])), glide=None, faded=state.frame)
     return state.with_mode(taken)
 
 
@@ -347,8 +357,8 @@ class Pencil(Sketching, PathSketch):
         "dial": Rule(rules.share, turn_dial),  # from 0 to 1, the most compact
         "dial_on": Rule(rules.whole, dial_on),  # so many steps further
         "cognate": Rule(rules.whole, cognate),  # its place among those that turn fully, from 0
-        "take_point": Rule(rules.whole, take_point),  # its place on the stroke
-        "take_pivot": Rule(rules.text, take_pivot),
+        "take_point": Rule(rules.whole, grasp_point),  # its place on the stroke
+        "take_pivot": Rule(rules.text, grasp_pivot),
         "lead": Rule(rules.numbers(2), lead),  # to (x, y) in the scene's unit
         "let_go": Rule(rules.nothing, let_go),
     }
@@ -356,7 +366,7 @@ class Pencil(Sketching, PathSketch):
 
     def closed(self, state: State) -> State:
         """Put the pencil down, and go back to the scene from before."""
-        return left(state)
+        return leave_sketch(state)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the stroke, its cognates, and the row of answers with their figures."""

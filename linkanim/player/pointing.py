@@ -15,7 +15,7 @@ from linkanim.mechanics.linkage import Damper, Point, Spring
 from linkanim.mechanics.motion import Pose, Strut
 from linkanim.picture.figure import Figure
 from linkanim.picture.hud import charted, rows
-from linkanim.picture.overlay import Told
+from linkanim.picture.overlay import HoverText
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.shapes import hull
 from linkanim.player.action import Action
@@ -53,7 +53,7 @@ def thing_at(
     A joint is met within `reach`, a link within the `half_width` of its bar (the scene's unit).
     """
     at = complex(*place)
-    places = {name: complex(*found) for name, found in pose.position.items()}
+    places = {name: complex(*position) for name, position in pose.position.items()}
     far, joint = min((abs(there - at), name) for name, there in places.items())
     if far <= reach:
         return PointedThing("joint", joint)
@@ -85,24 +85,24 @@ def _from_side(at: complex, begin: complex, end: complex) -> float:
     return abs(at - begin - min(max(share, 0.0), 1.0) * along)
 
 
-def told(state: State, pointed: Pointed) -> Told | None:
+def hover_text(state: State, pointed: Pointed) -> HoverText | None:
     """Return the lines about the thing under the mouse at this instant; None where there is none."""
     scene, thing = state.displayed, pointed.thing
     if pointed.instant is not None:
-        return Told(_of_instant(state, scene, pointed.instant), pointed.place)
+        return HoverText(_of_instant(state, scene, pointed.instant), pointed.place)
     if thing is None:
         return None
     if thing.kind == "row":
         lines = _of_row(state, scene, thing.name)
-        return Told(lines, pointed.place) if lines else None
+        return HoverText(lines, pointed.place) if lines else None
     pose = scene.pose(state.phase, speed=state.clock.speed)
     if thing.kind == "joint" and thing.name in pose.position:
-        return Told(_of_joint(scene, pose, thing.name), pointed.place, thing.name)
+        return HoverText(_of_joint(scene, pose, thing.name), pointed.place, thing.name)
     if thing.kind == "link" and thing.name in pose.angle:
-        return Told(_of_link(scene, pose, thing.name), pointed.place)
+        return HoverText(_of_link(scene, pose, thing.name), pointed.place)
     struts = {**pose.spring, **pose.damper}
     if thing.kind == "strut" and thing.name in struts:
-        return Told(_of_strut(scene, struts[thing.name], thing.name), pointed.place)
+        return HoverText(_of_strut(scene, struts[thing.name], thing.name), pointed.place)
     return None
 
 

@@ -35,7 +35,15 @@ from linkanim.player.keys import (
     on,
     tabs,
 )
-from linkanim.player.sketching import ACTIONS, Sketching, left, released, row_of, sketching, taken
+from linkanim.player.sketching import (
+    ACTIONS,
+    Sketching,
+    leave_sketch,
+    released,
+    row_of,
+    sketching,
+    with_answers,
+)
 from linkanim.player.state import (
     LARGEST_DIAL,
     PIVOTS,
@@ -71,8 +79,8 @@ _NO_CHOICE = "five poses leave no choice of pivots: Burmester's points are where
 def poses_(state: State, _: None) -> State:
     """Begin with poses: those that the scene was made for, or none yet; or go back to the earlier scene."""
     if state.posing:
-        return left(state)
-    state = drop(left(state), None)
+        return leave_sketch(state)
+    state = drop(leave_sketch(state), None)
     editing, shown = state.editing, state.displayed
     sketch = Posing(state.scene, state.clock, nothing_begun(editing), shown.length_unit)
     if isinstance(shown.purpose, PosesPurpose):
@@ -103,16 +111,16 @@ def _with_pin(state: State, sketch: PoseSketch, at: Point) -> State:
     room = 1 if sketch.sliding else len(PIVOTS)
     if len(sketch.poses) >= MOST:
         return with_toast(state, _NO_CHOICE)
-    taken = "pin", min(len(sketch.pins), room - 1)
-    bare = replace(sketch, pins=(*sketch.pins[: room - 1], at), taken=taken, earlier=sketch)
+    selected = "pin", min(len(sketch.pins), room - 1)
+    bare = replace(sketch, pins=(*sketch.pins[: room - 1], at), selected=selected, earlier=sketch)
     return _changed(state, bare, "search")
 
 
 def under(sketch: PoseSketch, at: Point, reach: float) -> PoseGrip | None:
     """Return the pose, pin or joint that a hand at a point grasps; None where there is none."""
     near = [(dist(place, at), grip) for grip, place in _handles(sketch, reach)]
-    far, found = min(near, key=lambda one: one[0], default=(0.0, None))
-    return found if far <= reach else None
+    far, nearest = min(near, key=lambda one: one[0], default=(0.0, None))
+    return nearest if far <= reach else None
 
 
 def _handles(sketch: PoseSketch, reach: float) -> Iterator[tuple[PoseGrip, Point]]:
@@ -166,8 +174,8 @@ def down(state: State, hand: tuple[float, float, float, float]) -> State:
         return _pivot_taken(state, sketch, grip)
     place = next(at for one, at in _handles(sketch, reach) if one == grip)
     grip = grip._replace(off=(place[0] - x, place[1] - y))
-    taken = ("pin" if grip.what == "pin" else "pose", grip.number) if grip.what != "joint" else None
-    return sketching(state, held=grip, base=state.scene, taken=taken, earlier=sketch)
+    selected = ("pin" if grip.what == "pin" else "pose", grip.number) if grip.what != "joint" else None
+    return sketching(state, held=grip, base=state.scene, selected=selected, earlier=sketch)
 
 
 def _set_down(state: State, sketch: PoseSketch, at: Point, off: Point) -> State:
@@ -185,11 +193,11 @@ def _set_down(state: State, sketch: PoseSketch, at: Point, off: Point) -> State:
         sketch,
         poses=(*sketch.poses, SetPose(*at, angle)),
         held=PoseGrip("axis", number, off),
-        taken=("pose", number),
+        selected=("pose", number),
         base=state.scene,
         earlier=sketch,
     )
-    return replace(state.with_mode(_settled(set_down)), glide=None)
+    return replace(state.with_mode(_with_possible_pins(set_down)), glide=None)
 
 
 def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
@@ -200,8 +208,8 @@ def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
     room = 1 if sketch.sliding else len(PIVOTS)
     pins = sketch.pins if known else (*sketch.pins[: room - 1], (place.real, place.imag))
     number = known[0] if known else len(pins) - 1
-    held, taken = PoseGrip("pin", number), ("pin", number)
-    return sketching(state, held=held, base=state.scene, pins=pins, taken=taken, earlier=sketch)
+    held, selected = PoseGrip("pin", number), ("pin", number)
+    return sketching(state, held=held, base=state.scene, pins=pins, selected=selected, earlier=sketch)
 
 
 def along(state: State, hand: tuple[float, float, float, float]) -> State:
@@ -233,7 +241,7 @@ def along(state: State, hand: tuple[float, float, float, float]) -> State:
 
 def _led(state: State, sketch: PoseSketch) -> State:
     """Return the state with what the hand has dragged, and ask for the answer that follows."""
-    sketch = _settled(sketch)
+    sketch = _with_possible_pins(sketch)
     if not sketch.is_asked:
         return state.with_mode(sketch)
     return with_effect(state.with_mode(sketch), "follow" if sketch.answers else "search")
@@ -247,7 +255,7 @@ def up(state: State, _: None) -> State:
     before = sketch.earlier
     same = before and (sketch.poses, sketch.pins) == (before.poses, before.pins)
     if before and same and (sketch.held.what != "joint" or sketch.held.at is None):
-        kept = replace(before, taken=sketch.taken, cursor=sketch.cursor)
+        kept = replace(before, selected=sketch.selected, cursor=sketch.cursor)
         return state.with_mode(replace(kept, strokes=sketch.strokes))
     state = released(sketching(state, strokes=sketch.strokes + 1, refusal=""))
     if not sketch.is_asked:
@@ -280,19 +288,19 @@ def further(state: State, by: int) -> State:
     things = [("pose", n) for n in range(len(sketch.poses))] + [("pin", n) for n in range(len(sketch.pins))]
     if not things:
         return state
-    at = things.index(sketch.taken) + by if sketch.taken in things else min(by - 1, 0)
-    taken = things[at % len(things)]
-    place = sketch.pins[taken[1]] if taken[0] == "pin" else sketch.poses[taken[1]][:2]
-    return sketching(state, taken=taken, cursor=place)
+    at = things.index(sketch.selected) + by if sketch.selected in things else min(by - 1, 0)
+    selected = things[at % len(things)]
+    place = sketch.pins[selected[1]] if selected[0] == "pin" else sketch.poses[selected[1]][:2]
+    return sketching(state, selected=selected, cursor=place)
 
 
 def remove(state: State, _: None) -> State:
     """Take away the frame or pin that was touched last."""
     sketch = state.posing
-    if sketch is None or sketch.held or sketch.taken is None:
+    if sketch is None or sketch.held or sketch.selected is None:
         return state
-    what, number = sketch.taken
-    bare = replace(sketch, taken=None, earlier=sketch)
+    what, number = sketch.selected
+    bare = replace(sketch, selected=None, earlier=sketch)
     if what == "pin":
         bare = replace(bare, pins=tuple(at for n, at in enumerate(sketch.pins) if n != number))
     else:
@@ -341,10 +349,10 @@ def cards(state: State, numbers: tuple[float, ...]) -> State:
     if len(numbers) % POSE_NUMBERS != 1 or state.posing is None:
         return state
     rows = (numbers[n : n + POSE_NUMBERS] for n in range(1, len(numbers), POSE_NUMBERS))
-    return taken(state, round(numbers[0]), tuple(map(pose_answer_from, rows)))
+    return with_answers(state, round(numbers[0]), tuple(map(pose_answer_from, rows)))
 
 
-def unmet(state: State, reason: str) -> State:
+def no_linkage(state: State, reason: str) -> State:
     """Say why there is no linkage for the poses."""
     sketch = state.posing
     if sketch is None or sketch.held:
@@ -360,7 +368,7 @@ def let_go(state: State) -> State | None:
         return None
     if sketch.held:
         return off(state)
-    for name, none in (("cursor", None), ("taken", None), ("pinning", False)):
+    for name, none in (("cursor", None), ("selected", None), ("pinning", False)):
         if getattr(sketch, name):
             return sketching(state, **{name: none})
     return None
@@ -368,13 +376,13 @@ def let_go(state: State) -> State | None:
 
 def _changed(state: State, sketch: PoseSketch, effect: str) -> State:
     """Return the state with another sketch, for which linkages are asked; for too few poses, none."""
-    sketch = _settled(replace(sketch, strokes=sketch.strokes + 1, refusal=""))
+    sketch = _with_possible_pins(replace(sketch, strokes=sketch.strokes + 1, refusal=""))
     if not sketch.is_asked:
         return replace(state.with_mode(replace(sketch, answers=(), chosen=0)), glide=None)
     return with_effect(replace(state.with_mode(sketch), toast=None), effect)
 
 
-def _settled(sketch: PoseSketch) -> PoseSketch:
+def _with_possible_pins(sketch: PoseSketch) -> PoseSketch:
     """Return poses with their pins where these are possible: with four poses, on the centre-point curve."""
     if not sketch.pins or len(sketch.poses) < 4:
         return sketch
@@ -427,8 +435,8 @@ def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ..
     lacks = ", ".join(answer.named_defects)
     facts = f"longest link {short(answer.size)} {sketch.unit}, transmission angle {angle}"
     lacking = f"defects: {lacks}" if lacks else "passes them in order on one branch"
-    found = f"{state.scene.info.class_name} through {count} poses"
-    return found[:1].upper() + found[1:], (facts, lacking, _FREE[count], *sets)
+    words = f"{state.scene.info.class_name} through {count} poses"
+    return words[:1].upper() + words[1:], (facts, lacking, _FREE[count], *sets)
 
 
 def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
@@ -510,7 +518,7 @@ class Posing(Sketching, PoseSketch):
         "pinning": Rule(rules.nothing, pinning_),
         "sliding": Rule(rules.nothing, sliding_),
         "theory": Rule(rules.nothing, curves_),
-        "unmet": Rule(rules.text, unmet),  # why there is no linkage
+        "no_linkage": Rule(rules.text, no_linkage),  # why there is no linkage
         "cards": Rule(rules.cards, cards),  # which one is shown; the numbers of each
         "dial": Rule(rules.share, dial_),  # from 0 to 1, the steepest
         "dial_on": Rule(rules.whole, dial_on),  # so many steps further
@@ -530,7 +538,7 @@ class Posing(Sketching, PoseSketch):
 
     def closed(self, state: State) -> State:
         """Let go of what is held or chosen; else go back to the scene from before."""
-        return let_go(state) or left(state)
+        return let_go(state) or leave_sketch(state)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the poses, words about them, and the row of answers."""
@@ -551,8 +559,8 @@ class Posing(Sketching, PoseSketch):
         if self.curves:
             yield theory(setting, self.poses, held=self.held is not None)
         yield couplers(setting, [*self._bodies()])
-        yield grips(setting, free_joints(self).values(), self.pins, self.taken)
-        yield axes(setting, self.poses, self.taken, self.cursor)
+        yield grips(setting, free_joints(self).values(), self.pins, self.selected)
+        yield axes(setting, self.poses, self.selected, self.cursor)
 
     def _bodies(self) -> Iterator[tuple[Point, ...]]:
         """Yield the corners of the shown answer's coupler in each pose."""

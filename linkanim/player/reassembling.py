@@ -26,13 +26,13 @@ def _toggle(state: State, _: None) -> State:
     return state.unlisted.with_mode(OpenClosures((), 0, state.frame, scene=state.scene))
 
 
-def _take(state: State, place: int) -> State:
+def _put_together(state: State, place: int) -> State:
     """Show a closure by its place, and close the others; undo goes back."""
     opened, bare = state.of(OpenClosures), state.without(OpenClosures)
     try:
         known = opened is not None and opened.scene is state.scene and opened.is_ready
-        found = opened.closures if opened and known else closures(state.scene)
-        scene = found[place].scene if 0 <= place < len(found) else state.scene
+        choices = opened.closures if opened and known else closures(state.scene)
+        scene = choices[place].scene if 0 <= place < len(choices) else state.scene
         if scene is state.scene:
             return bare
         return followed(replace(bare, editing=with_undo(bare.editing, state.scene)), scene)
@@ -58,16 +58,16 @@ class OpenClosures(OpenShelf):
                     both("left", "right", "move") + both("up", "down", "row"),
                 ),
                 KeyRow("PgUp, PgDn, wheel", "scroll", both("pageup", "pagedown", "scroll", 2)),
-                KeyRow("Enter, click", "put the linkage together so", enter("put_chosen", "unsift")),
+                KeyRow("Enter, click", "put the linkage together so", enter("put_chosen", "erase_filter")),
                 KeyRow("Ctrl+B, Esc", "close", on("ctrl+b", "closures")),
             )
         },
-        TypedKeys("sift", frozenset({"space", "h"})),
+        TypedKeys("filter", frozenset({"space", "h"})),
     )
     actions: ClassVar[Mapping[str, Rule]] = {
         **OpenShelf.actions,
         "closures": Rule(rules.nothing, _toggle, taped=False),
-        "take_closure": Rule(rules.whole, _take),  # its place among all closures of the scene
+        "take_closure": Rule(rules.whole, _put_together),  # its place among all closures of the scene
     }
     has_new = False
 
@@ -96,11 +96,11 @@ class OpenClosures(OpenShelf):
         if self.is_ready or state.frame <= self.since + 1:
             return state
         try:
-            found = closures(self.scene)
+            choices = closures(self.scene)
         except LinkanimError as error:
             return with_toast(state.without(OpenClosures), str(error))
-        entries = tuple(one.scene for one in found)
-        return state.with_mode(replace(self, entries=entries, closures=found, is_ready=True))
+        entries = tuple(one.scene for one in choices)
+        return state.with_mode(replace(self, entries=entries, closures=choices, is_ready=True))
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the pictures."""

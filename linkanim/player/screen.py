@@ -108,9 +108,9 @@ def _suiting() -> tuple[int, int]:
 
 def display_surface() -> pygame.Surface:
     """Return the window's surface, as large as the window is now; there must be one."""
-    found = pygame.display.get_surface()
-    assert found is not None
-    return found
+    surface = pygame.display.get_surface()
+    assert surface is not None
+    return surface
 
 
 def name(title: str) -> None:
@@ -413,8 +413,8 @@ class Screen:
 
     def number_at(self, kind: str, x: float, y: float) -> int | None:
         """Return the number of the tool, the answer or the row of a kind under a pixel; None elsewhere."""
-        found = self.target_at(kind, x, y)
-        return found.value if found else None
+        target = self.target_at(kind, x, y)
+        return target.value if target else None
 
     def help_at(self, x: float, y: float) -> str | None:
         """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
@@ -517,14 +517,14 @@ class Screen:
         picture, at = self.last, complex(*self.world(x, y))
         if not self.state.leads or not (picture.look.trace or picture.look.ink):
             return None
-        scene, found = self.state.displayed, []
+        scene, points = self.state.displayed, []
         for joint in scene.trace:
             path = scene.point_path(joint)
             away = np.abs(path.places - at)
             n = int(away.argmin())
             if path.moves and away[n] * picture.view.scale <= reach:
-                found.append((float(away[n]), joint, float(path.phases[n])))
-        return min(found)[1:] if found else None
+                points.append((float(away[n]), joint, float(path.phases[n])))
+        return min(points)[1:] if points else None
 
     def pointed(self, x: float, y: float, reach: float) -> Pointed | None:
         """Return the thing of the scene at a pixel, or an instant on its chart or a curve; else None."""
@@ -538,8 +538,8 @@ class Screen:
         scene = self.state.displayed
         thing = thing_at(picture.figure, scene.pose(self.state.phase, 0), place, reach / scale, half / scale)
         curve = self.on_trace(x, y, reach) if thing is None or thing.kind != "joint" else None
-        found = Pointed(place, None if curve else thing, curve[1] if curve else None)
-        return found if thing or curve else None
+        thing_there = Pointed(place, None if curve else thing, curve[1] if curve else None)
+        return thing_there if thing or curve else None
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None off it."""

@@ -48,17 +48,17 @@ def _move(state: State, further: int) -> State:
     """Choose the entry `further` places on among those found; the shelf wraps around."""
 
     def moved(shelf: OpenShelf) -> OpenShelf:
-        found = shelf.found
-        if shelf.chosen not in found:
+        places = shelf.matches
+        if shelf.chosen not in places:
             return shelf
-        return replace(shelf, chosen=found[(found.index(shelf.chosen) + further) % len(found)])
+        return replace(shelf, chosen=places[(places.index(shelf.chosen) + further) % len(places)])
 
     return _changed(state, moved)
 
 
 def _point(state: State, place: int) -> State:
     """Choose a place on the shelf."""
-    return _changed(state, lambda one: replace(one, chosen=place) if place in one.found else one)
+    return _changed(state, lambda one: replace(one, chosen=place) if place in one.matches else one)
 
 
 def _top(state: State, row: int) -> State:
@@ -66,14 +66,14 @@ def _top(state: State, row: int) -> State:
     return _changed(state, lambda one: replace(one, top=row))
 
 
-def _sift(state: State, text: str) -> State:
+def _filter(state: State, text: str) -> State:
     """Add letters to what the shelf is searched for."""
-    return _changed(state, lambda one: one.sifted((one.sieve + text)[:_LONGEST]))
+    return _changed(state, lambda one: one.filtered((one.typed + text)[:_LONGEST]))
 
 
-def _unsift(state: State, _: None) -> State:
+def _erase_filter(state: State, _: None) -> State:
     """Take the last letter off what the shelf is searched for."""
-    return _changed(state, lambda one: one.sifted(one.sieve[:-1]))
+    return _changed(state, lambda one: one.filtered(one.typed[:-1]))
 
 
 def _files(state: State, lines: str) -> State:
@@ -95,9 +95,9 @@ def _ahead(window: Outside) -> Grid | None:
 
 
 def _put_chosen(window: Outside, _: Value) -> Iterator[Action]:
-    """Yield the action that shows the chosen mechanism, if the sieve has left one."""
+    """Yield the action that shows the chosen mechanism, if any has the typed words."""
     shelf = window.state.of(OpenShelf)
-    if shelf and shelf.chosen in shelf.found:
+    if shelf and shelf.chosen in shelf.matches:
         yield from _put(window, shelf.chosen)
 
 
@@ -142,7 +142,7 @@ def _row(window: Outside, rows: Value) -> Iterator[Action]:
     shelf, shown = window.state.of(OpenShelf), _ahead(window)
     if shelf and shown and isinstance(rows, int):
         yield Action("top", shown.top)
-        yield Action("point", shown.beside(shelf.chosen, rows))
+        yield Action("point", shown.neighbour(shelf.chosen, rows))
 
 
 def _scroll(window: Outside, rows: Value) -> Iterator[Action]:
@@ -174,10 +174,10 @@ class OpenShelf(Browsing, Mode):
                 KeyRow("type", "filter by title or chapter"),
                 KeyRow("1–9", "another of the chapter that is on", digits("select")),
                 KeyRow("PgUp, PgDn, wheel", "scroll", both("pageup", "pagedown", "scroll", 2)),
-                KeyRow("Enter, click", "put it on", enter("put_chosen", "unsift")),
+                KeyRow("Enter, click", "put it on", enter("put_chosen", "erase_filter")),
             )
         },
-        TypedKeys("sift", frozenset({"space", "h", "o", *"123456789"})),
+        TypedKeys("filter", frozenset({"space", "h", "o", *"123456789"})),
     )
     bar = (BACK_BAR, HOME_BAR, *LAST_BAR)
     actions: ClassVar[Mapping[str, Rule]] = {
@@ -186,8 +186,8 @@ class OpenShelf(Browsing, Mode):
         "move": Rule(rules.whole, _move, taped=False),  # places
         "point": Rule(rules.whole, _point, taped=False),  # the place
         "top": Rule(rules.whole, _top, taped=False),  # the first visible row
-        "sift": Rule(rules.text, _sift, taped=False),
-        "unsift": Rule(rules.nothing, _unsift, taped=False),
+        "filter": Rule(rules.text, _filter, taped=False),
+        "erase_filter": Rule(rules.nothing, _erase_filter, taped=False),
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {
         **{"put": _put, "put_chosen": _put_chosen, "shelf": _opened, "files_here": _files_here},
@@ -203,7 +203,7 @@ class OpenShelf(Browsing, Mode):
     def typing(self, state: State) -> bool:
         """Return whether the shelf is filtered."""
         del state
-        return bool(self.sieve)
+        return bool(self.typed)
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the shelf."""

@@ -30,7 +30,7 @@ from linkanim.picture.overlay import (
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
-from linkanim.player.pointing import Pointed, told
+from linkanim.player.pointing import Pointed, hover_text
 from linkanim.player.state import (
     SHUTTER_FRAMES,
     BuildSheet,
@@ -85,13 +85,13 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
 def _numbers(building: Building) -> RowsShown | None:
     """Return the chosen thing with all its numbers, including the one that is being typed."""
     thing, draft = building.chosen, building.draft
-    found = rows_of(draft, thing)
-    if thing is None or not found:
+    own_rows = rows_of(draft, thing)
+    if thing is None or not own_rows:
         return None
-    row = building.row % len(found)
-    rows = [(one.label, stated(one, building, n == row)) for n, one in enumerate(found)]
+    row = building.row % len(own_rows)
+    rows = [(one.label, stated(one, building, n == row)) for n, one in enumerate(own_rows)]
     title = subscripted_words(called(draft, thing))
-    options = tuple(n for n, one in enumerate(found) if one.options)
+    options = tuple(n for n, one in enumerate(own_rows) if one.options)
     return RowsShown(title, tuple(rows), row, options=options)
 
 
@@ -261,7 +261,7 @@ def overlay(
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
         glow=_glow(state, hover),
-        told=told(state, pointed) if pointed else None,
+        hover_text=hover_text(state, pointed) if pointed else None,
         instant=pointed.instant if pointed else None,
         grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
@@ -295,15 +295,15 @@ def lasting(state: State) -> Overlay:
 
 
 def _lasting(state: State, over: Hover | None = None) -> Overlay:
-    found = Overlay(
+    overlay = Overlay(
         paused=_stands(state) and not state.game,
         noted=True,
         recording=_recording(state),
         hover=over,
     )
     for mode in state.modes:
-        found = mode.shown(state, found)
-    return replace(found, hover=None)
+        overlay = mode.shown(state, overlay)
+    return replace(overlay, hover=None)
 
 
 def _stands(state: State) -> bool:

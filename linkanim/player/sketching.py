@@ -33,7 +33,7 @@ def sketching(state: State, **changes: object) -> State:
     return state.with_mode(replace(state.sketch, **changes)) if state.sketch else state  # type: ignore[arg-type]
 
 
-def left(state: State) -> State:
+def leave_sketch(state: State) -> State:
     """Leave the sketch; the scene from before comes back as if it had run on meanwhile."""
     sketch = state.sketch
     if sketch is None:
@@ -47,7 +47,7 @@ def keep(state: State, _: None) -> State:
     """Leave the sketch and keep the answer in the scene's place; undo brings the scene back."""
     sketch = state.sketch
     if sketch is None or sketch.is_blank or state.scene is sketch.before:
-        return left(state)
+        return leave_sketch(state)
     return replace(state.without(Sketch), editing=with_undo(sketch.editing, sketch.before))
 
 
@@ -87,7 +87,7 @@ def come(state: State) -> State:
     return replace(sketching(state, coming=None), scene=coming) if coming else state
 
 
-def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
+def with_answers(state: State, first: int, more: tuple[Any, ...]) -> State:
     """Return the state with other answers, one of them shown.
 
     A scene whose own trace was taken stays the first answer, and the shown answer stays shown.
@@ -95,20 +95,20 @@ def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
     sketch = state.sketch
     if sketch is None or not sketch.is_asked or sketch.held is not None:
         return state
-    if not 0 <= first < len(found):
+    if not 0 <= first < len(more):
         return state
     before = sketch.answer
     if isinstance(sketch, PathSketch) and sketch.answers and isinstance(sketch.answers[0], Scene):
         assert sketch.curve
         own = in_unit(sketch.answers[0], sketch.unit)
-        others = (one for one in found if one == before or not _stands_on(own, one.row, sketch.curve.size))
+        others = (one for one in more if one == before or not _stands_on(own, one.row, sketch.curve.size))
         answers = sketch.answers[0], *others
         return sketching(state, answers=answers, chosen=answers.index(before) if before in answers else 0)
     was_none = not sketch.answers
-    state = sketching(state, answers=found, chosen=first)
-    if before == found[first]:
+    state = sketching(state, answers=more, chosen=first)
+    if before == more[first]:
         return state
-    scene = sketch.scene_of(found[first])
+    scene = sketch.scene_of(more[first])
     return _first(state, scene) if was_none else followed(state, scene)
 
 
@@ -138,7 +138,7 @@ def choose(state: State, place: int) -> State:
     return state.with_mode(sketch.picking(place))
 
 
-def take_back(state: State, _: None) -> State:
+def undo(state: State, _: None) -> State:
     """Go back to the sketch, with its answers, before the last change."""
     sketch = state.sketch
     if sketch is None or sketch.earlier is None or sketch.held is not None:
@@ -176,7 +176,7 @@ ACTIONS: Mapping[str, Rule] = {
     "follow": Rule(rules.answer, follow),  # an answer's numbers
     "answer": Rule(rules.whole, choose),  # its place in the row
     "keep": Rule(rules.nothing, keep),
-    "take_back": Rule(rules.nothing, take_back),
+    "take_back": Rule(rules.nothing, undo),
 }
 """The actions that the pencil and poses share."""
 
@@ -197,7 +197,11 @@ class Sketching(Mode):
     def ready_for(self, state: State, action: Action) -> State:
         """Keep the answer for an action on a scene, or leave it."""
         return (
-            keep(state, None) if action.name in _KEEPS else left(state) if action.name in _LEAVES else state
+            keep(state, None)
+            if action.name in _KEEPS
+            else leave_sketch(state)
+            if action.name in _LEAVES
+            else state
         )
 
     def aged(self, state: State) -> State:

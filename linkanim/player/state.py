@@ -129,8 +129,8 @@ def check_of_turning(before: Info) -> Callable[[Scene], None]:
     """Return a check that refuses a scene whose input no longer turns fully before all of it is solved."""
 
     def check(scene: Scene) -> None:
-        found = stopped(scene.linkage) if before.full_turn else None
-        if found and (loss := loss_of_turning(before, Info(found, scene.length_unit))):
+        why = stopped(scene.linkage) if before.full_turn else None
+        if why and (loss := loss_of_turning(before, Info(why, scene.length_unit))):
             raise BadInput(loss)
 
     return check
@@ -371,8 +371,8 @@ class BuildSheet:
         drawn = self.building.draft
         if self.building.made.scene is None:
             return drawn
-        found = scene.pose(phase, 0).position
-        places = {name: (float(found[name][0]), float(found[name][1])) for name in drawn.places}
+        position = scene.pose(phase, 0).position
+        places = {name: (float(position[name][0]), float(position[name][1])) for name in drawn.places}
         return replace(drawn, places=places)
 
     @property
@@ -715,7 +715,7 @@ class PoseSketch(Sketch):
 
     `pins` are where fixed pins have to be; with `sliding` linkages end on a slider. The `dial` says which
     counts more, a small linkage (below 0) or a large transmission angle. With `curves` the poses' poles and
-    Burmester's curves are drawn. While `pinning` the hand sets pins instead of poses. `taken` is the thing
+    Burmester's curves are drawn. While `pinning` the hand sets pins instead of poses. `selected` is the thing
     touched last, `cursor` the place of the keys' cursor, `refusal` why there is no linkage.
     """
 
@@ -728,7 +728,7 @@ class PoseSketch(Sketch):
     dial: int = 0
     curves: bool = False
     pinning: bool = False
-    taken: tuple[str, int] | None = None
+    selected: tuple[str, int] | None = None
     cursor: Point | None = None
     refusal: str = ""
 
@@ -768,7 +768,7 @@ CHIP_FRAMES = 66
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 FLASH_FRAMES = FRAMES_PER_SECOND
 SHUTTER_FRAMES = 12
-STIR_FRAMES = 3 * FRAMES_PER_SECOND
+MOUSE_FRAMES = 3 * FRAMES_PER_SECOND
 """The frames for which the bar of commands shows after the mouse has moved."""
 
 
@@ -868,7 +868,7 @@ class State:
 
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
-    `stirred` is the frame of the last move of the mouse or a finger, while the bar of commands shows.
+    `last_mouse_move` is the frame of the last move of the mouse or a finger, while the bar of commands shows.
     `touched` is the frame of the last action, `arrived` that at which the mechanism appeared, `turned` that
     at which an edit changed the class of the linkage, while the list shows it.
 
@@ -912,7 +912,7 @@ class State:
     home: Box | None = None
     also: tuple[complex, ...] = ()
     lesson: tuple[int, int] | None = None
-    stirred: int | None = None
+    last_mouse_move: int | None = None
     touched: int = 0
     effects: tuple[Action, ...] = ()
 
@@ -1016,8 +1016,8 @@ class State:
         """The places of the shelf whose scenes differ from their files."""
         sheet = self.building
         own = (sheet.before, sheet.editing) if sheet else (self.scene, self.editing)
-        found = (*self.kept, Edited(self.place, *own))
-        return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
+        edits = (*self.kept, Edited(self.place, *own))
+        return frozenset(one.place for one in edits if one.editing.original not in (None, one.scene))
 
     @property
     def is_bare(self) -> bool:
@@ -1076,12 +1076,12 @@ def begin(scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | N
     loading raises it.
     """
     source = "press" if scene is None else scene
-    found = source if isinstance(source, Scene) else load(source)
+    opened = source if isinstance(source, Scene) else load(source)
     shelf: tuple[Scene | str, ...] = names()
-    if source not in shelf and (found.name not in shelf or load(found.name) != found):
-        shelf = (found, *shelf)
-    place = 0 if shelf[0] is found else shelf.index(found.name)
-    return State(found, fresh(found), shelf, place, look=look or Look(), arrived=0)
+    if source not in shelf and (opened.name not in shelf or load(opened.name) != opened):
+        shelf = (opened, *shelf)
+    place = 0 if shelf[0] is opened else shelf.index(opened.name)
+    return State(opened, fresh(opened), shelf, place, look=look or Look(), arrived=0)
 
 
 def fresh(scene: Scene) -> Clock:

@@ -31,13 +31,13 @@ def _file_name(part: Section) -> str:
 
 def look(part: Section, usual: Look = Look()) -> Look:  # noqa: B008 -- frozen
     """Return the look that a table has; a field that is not in it has its usual value."""
-    found: dict[str, Any] = {name: _value(part, name) for name in TOGGLES if name in part}
+    values: dict[str, Any] = {name: _value(part, name) for name in TOGGLES if name in part}
     if "zoom" in part:
-        found["zoom"] = min(max(part.number("zoom"), _LEAST_ZOOM), _MOST_ZOOM)
+        values["zoom"] = min(max(part.number("zoom"), _LEAST_ZOOM), _MOST_ZOOM)
     if "pan" in part:
         pan = part.listed("pan", 2)
-        found["pan"] = tuple(pan.number(side) for side in pan.values)
-    return Look(**{**vars(usual), **found})
+        values["pan"] = tuple(pan.number(side) for side in pan.values)
+    return Look(**{**vars(usual), **values})
 
 
 def refuse_unknown(part: Section, *others: str) -> None:
@@ -51,8 +51,8 @@ def refuse_unknown(part: Section, *others: str) -> None:
 def written_look(shown: Look, usual: Look = Look()) -> dict[str, Any]:  # noqa: B008 -- frozen
     """Return a look as a table: the fields whose values are not the usual ones."""
     names = (*TOGGLES, "zoom", "pan")
-    found = {name: getattr(shown, name) for name in names if getattr(shown, name) != getattr(usual, name)}
-    return {name: _plain(value) for name, value in found.items()}
+    values = {name: getattr(shown, name) for name in names if getattr(shown, name) != getattr(usual, name)}
+    return {name: _plain(value) for name, value in values.items()}
 
 
 def _plain(value: Any) -> Any:

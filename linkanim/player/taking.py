@@ -118,9 +118,9 @@ def toggle(state: State, _: None) -> State:
 
 def propose(state: State, lines: str) -> State:
     """Keep the current folder and the proposed places, one a line."""
-    folder, *found = lines.splitlines() or [""]
+    folder, *names = lines.splitlines() or [""]
     dialog = state.of(TakeDialog)
-    return state.with_mode(replace(dialog, folder=folder, places=tuple(found))) if dialog else state
+    return state.with_mode(replace(dialog, folder=folder, places=tuple(names))) if dialog else state
 
 
 def choose(state: State, further: int) -> State:
@@ -188,7 +188,7 @@ def _opened(window: Outside, _: Value) -> Iterator[Action]:
     """Yield the actions that open the dialog with free places, or close it."""
     yield Action("taking")
     if window.state.of(TakeDialog):
-        yield Action("take_places", window.proposed_places())
+        yield Action("take_places", window.proposed_targets())
 
 
 def _started(window: Outside, _: Value) -> Iterator[Action]:
@@ -202,7 +202,7 @@ def _started(window: Outside, _: Value) -> Iterator[Action]:
         yield from window.resolved(does)
         return
     file = target(window.state)
-    if reason := window.refused_place(file):
+    if reason := window.refused_target(file):
         yield Action("take_refused", reason)
         return
     yield Action("back")
@@ -263,7 +263,9 @@ class TakeDialog(Mode):
                 ),
                 KeyRow("type", "the folder and name to write to; .gif or .mp4 chooses the format"),
                 KeyRow(
-                    "Enter", "record; Esc does not", enter("take_start", "take_untype") + on("escape", "back")
+                    "Enter",
+                    "record; Esc does not",
+                    enter("take_start", "erase_target") + on("escape", "back"),
                 ),
             )
         },
@@ -277,7 +279,7 @@ class TakeDialog(Mode):
         "take_row": Rule(rules.whole, choose),  # rows further down
         "take_turn": Rule(rules.whole, turn),  # values further on
         "take_type": Rule(rules.text, write),
-        "take_untype": Rule(rules.nothing, erase),
+        "erase_target": Rule(rules.nothing, erase),
         "take_refused": Rule(rules.text, refused),  # why it cannot be written there
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"taking": _opened, "take_start": _started}

@@ -117,14 +117,14 @@ def resumed(state: State) -> Iterator[Action]:
     if sketch is None:
         return
     yield Action("pencil")
-    found = [one for one in sketch.answers if not isinstance(one, Scene)]
-    if len(found) < len(sketch.answers):
+    answers = [one for one in sketch.answers if not isinstance(one, Scene)]
+    if len(answers) < len(sketch.answers):
         yield Action("own_trace")
     elif sketch.curve:
         points = (part for point in sketch.curve.points for part in (float(point.real), float(point.imag)))
         yield Action("stroke", (float(sketch.curve.closed), *points))
-    if found:
-        yield Action("cards", (0.0, *(number for one in found for number in one.numbers)))
+    if answers:
+        yield Action("cards", (0.0, *(number for one in answers for number in one.numbers)))
         yield Action("answer", sketch.chosen)
     if sketch.way:
         yield Action("way", (0.0, *(number for one in sketch.way for number in one.numbers)))

@@ -214,17 +214,17 @@ def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
     if len(entries.values) > MOST_ACTIONS:
         count = len(entries.values)
         raise top.error("actions", f"are {count:,}, more than {MOST_ACTIONS:,}; record a shorter tape")
-    found: list[tuple[int, Action]] = []
+    actions: list[tuple[int, Action]] = []
     for key, entry in entries.values.items():
         try:
             frame, action = _action(entry)
         except ValueError as error:
             raise entries.error(key, f"{shown(entry)} is not {error}") from None
-        if not (found[-1][0] if found else 0) <= frame <= frames:
+        if not (actions[-1][0] if actions else 0) <= frame <= frames:
             raise entries.error(key, f"{shown(entry)} is not in the order of frames, up to {frames}")
-        found.append((frame, action))
-    _refuse_crowded(top, found)
-    return tuple(found)
+        actions.append((frame, action))
+    _refuse_crowded(top, actions)
+    return tuple(actions)
 
 
 def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
@@ -244,6 +244,16 @@ def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
             raise top.error("actions", f"have {count:,} {what}, more than {most:,}; record the tape again")
 
 
+_NAMED = {
+    "unbuild": "undo_sheet",
+    "rebuild": "redo_sheet",
+    "undigit": "erase_number",
+    "unmet": "no_linkage",
+    "take_untype": "erase_target",
+}
+"""What the actions of earlier tapes are called now."""
+
+
 def _action(entry: Any) -> tuple[int, Action]:
     """Return the frame and the action of an entry; ValueError with what would be right for any other."""
     match entry:
@@ -251,7 +261,7 @@ def _action(entry: Any) -> tuple[int, Action]:
             value = rest[0] if rest else None
         case _:
             raise ValueError("[frame, name] or [frame, name, value]")
-    action = Action(name, tuple(value) if isinstance(value, list) else value)
+    action = Action(_NAMED.get(name, name), tuple(value) if isinstance(value, list) else value)
     if not is_taped(action):
         raise ValueError("an action of this version; record the tape again")
     return frame, action

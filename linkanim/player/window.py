@@ -24,13 +24,13 @@ from linkanim.picture.overlay import Hover, OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
 from linkanim.player import files, modes, screen, taking
 from linkanim.player.action import Action, Value
-from linkanim.player.actions import aged, carried, leave, settled
-from linkanim.player.building import left, written
+from linkanim.player.actions import aged, carried, end_of_frame, leave
+from linkanim.player.building import leave_sheet, written
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.desktop import reduces_motion
 from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
-from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
+from linkanim.player.files import DraftFile, SavedScenes, SceneFile, relative, scene_files
 from linkanim.player.keys import bind_of
 from linkanim.player.lesson import Lesson
 from linkanim.player.making import Layering
@@ -45,7 +45,7 @@ from linkanim.scenes.files import is_lesson, opened, path_of
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
-    from linkanim.player.beside import Following, Making, Queue
+    from linkanim.player.background import Following, Making, Queue
 
 # What the window needs to know of games: which there are, and the results that are kept.
 
@@ -75,7 +75,7 @@ _USUALLY_MADE = ("--fit", "A4")
 _WAITS = "unsaved work of another sheet is kept as well; `linkanim new` without a photograph takes it up"
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _BESIDE_A_TAPE = frozenset(
-    {"stir", "hint", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
+    {"mouse_moved", "hint", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
 )
 
 
@@ -174,7 +174,7 @@ class Window:
         for action in self._requested(events):
             self.state = carried(self.state, action)
             done.append(action)
-        self.state = settled(before, self.state)
+        self.state = end_of_frame(before, self.state)
         if self._taping:
             self._taping.note(self.state.frame, tuple(done))
         for effect in self.state.effects:
@@ -194,7 +194,7 @@ class Window:
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
                 yield from self.resolved(action)
-        for action in self._mouse.held(self.screen) if self._good else ():
+        for action in self._mouse.long_press(self.screen) if self._good else ():
             yield from self._off_the_tape(action)
             yield from self.resolved(action)
         for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
@@ -220,11 +220,13 @@ class Window:
         """Return the scene files in the current folder."""
         return scene_files()
 
-    def proposed_places(self) -> str:
+    def proposed_targets(self) -> str:
         """Return the current folder and places in it to write to, one a line."""
-        return "\n".join([files.current_folder(), *files.places(self.state.scene.name, self._last_place)])
+        return "\n".join(
+            [files.current_folder(), *files.free_targets(self.state.scene.name, self._last_place)]
+        )
 
-    def refused_place(self, file: str) -> str:
+    def refused_target(self, file: str) -> str:
         """Return why nothing can be recorded into a file; else remember its folder, and return nothing."""
         try:
             self._queue.refuse(file)
@@ -243,7 +245,7 @@ class Window:
             return
         if self.state.posing and self.state.scene is not self.screen.state.scene:
             return  # this frame draws the new linkage; the next linkage is worked out in the next frame
-        from linkanim.player.beside import actions_of
+        from linkanim.player.background import actions_of
 
         for reply in self._following.replies():
             yield from actions_of(reply, self.state.sketch)
@@ -253,13 +255,13 @@ class Window:
         making, shown = self._layering, self.state.of(Layering)
         if making and making.done:
             if shown and shown.scene is making.scene:
-                yield Action("layered", making.found())
+                yield Action("layered", making.result())
             making.close()
             self._layering = None
 
     def _make(self, *, whole: bool) -> None:
         """Start to find the layers of the present scene; with `whole`, to write its parts."""
-        from linkanim.player.beside import Making
+        from linkanim.player.background import Making
 
         scene = self.state.scene
         if not whole:
@@ -273,7 +275,7 @@ class Window:
 
     def _ask_for(self, name: str) -> None:
         """Ask the search for linkages for the sketch, all or only the shown one; start it if need be."""
-        from linkanim.player.beside import Following, request_of
+        from linkanim.player.background import Following, request_of
 
         if self._following and self._following.is_over:
             self._following.close()
@@ -414,11 +416,11 @@ class Window:
     def _own_files(self) -> dict[str, Scene]:
         """The scene files of this window that may hold the present scene, and what they hold."""
         files = (self._file.path if self._file else None, self.state.saved_as)
-        found: dict[str, Scene] = {}
+        scenes: dict[str, Scene] = {}
         for file in files:
             with suppress(LinkanimError):
-                found |= {str(file): load(str(file))} if file else {}
-        return found
+                scenes |= {str(file): load(str(file))} if file else {}
+        return scenes
 
     def _save_new(self, name: str) -> None:
         """Write the scene under a name; where that is impossible, ask again with the reason."""
@@ -483,7 +485,7 @@ class Window:
             return
         scene, left_out = opened(path)
         self._file = SceneFile(path)
-        self.state = renewed(left(leave(self.state)), scene)
+        self.state = renewed(leave_sheet(leave(self.state)), scene)
         self.note_left_out(left_out)
 
     def note_left_out(self, left_out: Sequence[str]) -> None:
@@ -499,7 +501,7 @@ class Window:
             raise BadInput("a recording holds only the scenes that it began with; stop it, then press F5")
         scene = self._file.load()
         try:
-            self.state = renewed(left(self.state), scene)
+            self.state = renewed(leave_sheet(self.state), scene)
         except LinkanimError:
             raise
         except Exception as error:
@@ -537,7 +539,7 @@ class Window:
     @property
     def _queue(self) -> Queue:
         """The recordings that are rendered, one after the other."""
-        from linkanim.player.beside import Queue
+        from linkanim.player.background import Queue
 
         self._renderings = self._renderings or Queue()
         return self._renderings
@@ -546,7 +548,7 @@ class Window:
         """Return the actions of an event in the present state."""
         if event.type == pygame.DROPFILE:
             picture = event.file.lower().endswith(SUFFIXES)
-            name = files.beside(event.file) if picture else event.file
+            name = files.relative(event.file) if picture else event.file
             return (Action("photo" if picture else "open_file", name),)
         if event.type == pygame.QUIT:
             return (Action("close"),)
@@ -631,7 +633,7 @@ def run(
         if layers is not None:
             window.open_layers(layers)
         if photo:
-            window.state = carried(window.state, Action("photo", beside(str(photo))))
+            window.state = carried(window.state, Action("photo", relative(str(photo))))
         if attract:
             window.fill()
         gc.freeze()  # objects that exist by now stay: the collector need not search them during a frame

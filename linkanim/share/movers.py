@@ -384,7 +384,7 @@ class Mobile:
     def _places(self) -> Places:
         """Where joints and centres of mass lie at the start."""
         pose, _ = self.light.poses(0.0)
-        masses = {centre(body): self.light.view.place(at) for body, at in pose.com_position.items()}
+        masses = {centre(body): self.light.view.pixel(at) for body, at in pose.com_position.items()}
         return {**self.light.drawing.places(pose), **masses}
 
     def movables(self) -> Iterator[Movable]:
@@ -576,8 +576,8 @@ def shares_of(picture: Picture, body: str, place: tuple[float, float]) -> tuple[
     """
     pose, found = picture.scene.pose(0.0, 0), picture.scene.linkage.body(body)
     joints = found.joints or (str(found.slider),)
-    ends = [picture.view.place(pose.position[name]) for name in joints]
-    off = picture.view.place(place) - ends[0]
+    ends = [picture.view.pixel(pose.position[name]) for name in joints]
+    off = picture.view.pixel(place) - ends[0]
     share = off / (ends[1] - ends[0]) if len(ends) > 1 else off
     return joints[0], joints[min(1, len(ends) - 1)], _pair(share)
 

@@ -354,7 +354,7 @@ class _Side:
             "name": closure_name(scene),
             "view": [view.scale, view.x, view.y],
             "drive": scene.linkage.drive.joint,
-            "joints": list(self._picture.figure.shown),
+            "joints": list(self._picture.figure.in_view),
             "tracks": packed_tracks(tracks(scene, view)),
             "movers": [one.mover for one in self._movables if one.mover],
             "rows": list(rows(scene, speed)),

@@ -101,14 +101,14 @@ class Drawn:
             for number in lying:
                 yield from self._plate(number, view)
         numbers = [item for number in self._order() for item in self._number(number, view)]
-        pins = [(pin, view.place((at.real, at.imag))) for pin, at in self._pins()]
+        pins = [(pin, view.pixel((at.real, at.imag))) for pin, at in self._pins()]
         discs = [item for pin, at in pins for item in self._pin(at, view)]
         yield from discs
         yield from numbers
         radius = self._radius(view)
         taken = [_around(layer.loops[0]) for layer in (*discs, *numbers) if isinstance(layer, Layer)]
         named = [(pin.name, at) for pin, at in pins if not pin.stuck]
-        named += [(joint, view.place((at.real, at.imag))) for joint, _, at in self._open()]
+        named += [(joint, view.pixel((at.real, at.imag))) for joint, _, at in self._open()]
         yield from self._names(
             [
                 (name, [(at.real + x, at.imag + y - 0.5 * _TEXT) for x, y in _corner_places(radius)])
@@ -185,7 +185,7 @@ class Drawn:
             return
         at, turn = self.made.placed(self.phase)[number]
         place = at + turn * self.made.plates[number].clearest
-        middle = view.place((place.real, place.imag))
+        middle = view.pixel((place.real, place.imag))
         pale = self.new is not None and number not in self.new
         if pale:
             return

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import reduce
 
 from linkanim.build.building import Building, posed, redo, undo
-from linkanim.build.dimensions import choose_number, take, write
+from linkanim.build.dimensions import accept, choose_number, write
 from linkanim.build.draft import Thing
 from linkanim.build.gestures import (
     choose,
@@ -43,7 +43,7 @@ def gesture(building: Building, line: str, *, reach: float = REACH, snap: float 
     """Return the building after one gesture; by the pointer it is made onto the pose that is drawn."""
     name, *words = line.split()
     if name == "type":
-        return take(write(building, " ".join(words)))
+        return accept(write(building, " ".join(words)))
     if name == "choose":
         return choose_thing(building, words[0], " ".join(words[1:]))
     if name == "number":

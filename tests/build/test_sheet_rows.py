@@ -8,7 +8,7 @@ import pytest
 from hand import drawn, gesture
 
 from linkanim.build.building import Building, undo
-from linkanim.build.dimensions import choose_number, next_option, rows_of, take, write
+from linkanim.build.dimensions import accept, choose_number, next_option, rows_of, write
 from linkanim.build.storing import restored, stored
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.toml import parse, text
@@ -40,7 +40,7 @@ def chosen(kind: str, name: str, label: str, begin: str = SESSION) -> Building:
 
 
 def typed(building: Building, words: str) -> Building:
-    return take(write(building, words))
+    return accept(write(building, words))
 
 
 def again(building: Building) -> Any:

@@ -109,7 +109,7 @@ class _Frame:
 
     def __init__(self, picture: Picture, pose: Pose, words: Sequence[Labelled], still: bool) -> None:
         self.picture, self.pose, self.still = picture, pose, still
-        self.places = {name: picture.view.place(at) for name, at in pose.position.items()}
+        self.places = {name: picture.view.pixel(at) for name, at in pose.position.items()}
         self.words = words
         self.on_part = [one for one in words if one.of.partition(":")[0] in ON_PART]
         figure, gauge = picture.figure, picture.gauge

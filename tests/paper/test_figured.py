@@ -175,7 +175,7 @@ def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -
     for n, body in enumerate(numbers[number] for number in "35"):
         assert body is not None
         cross = np.concatenate(crosses.loops[2 * n : 2 * n + 2]).mean()
-        wanted = view.place(quantity(scene, f"{body.name}.pole").read(pose))
+        wanted = view.pixel(quantity(scene, f"{body.name}.pole").read(pose))
         assert abs(cross - wanted) < 1e-6
     assert len(lines.loops) > 8  # Kennedy's, two to each
     # of the press no two lines lead to a centre; its ram's is at infinity

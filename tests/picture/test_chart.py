@@ -34,8 +34,8 @@ def test_a_curve_is_broken_where_its_value_is_not_bounded() -> None:
 
 def test_what_lies_beyond_the_axis_stays_at_its_edge() -> None:
     plot = Plot(Rect(0, 0, 100, 50), linear(0, 10), linear(-1, 1))
-    assert complex(plot.place(5, 100)) == 50 + 0j
-    assert complex(plot.place(5, -100)) == 50 + 50j
+    assert complex(plot.pixels(5, 100)) == 50 + 0j
+    assert complex(plot.pixels(5, -100)) == 50 + 50j
 
 
 def test_every_tick_has_its_line_and_its_label() -> None:

@@ -261,7 +261,7 @@ def test_a_pixel_of_the_chart_is_a_phase_also_just_beside_its_ends(
 
 def test_a_constant_quantity_is_a_level_line_not_noise() -> None:
     chart = _strip("parallelogram", "coupler.angular_velocity")
-    values = chart.plot.place(np.zeros(722), chart.curves[1][:, 0]).imag
+    values = chart.plot.pixels(np.zeros(722), chart.curves[1][:, 0]).imag
     assert np.ptp(values) < 0.01
 
 

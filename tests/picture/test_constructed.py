@@ -216,7 +216,7 @@ def test_words_on_a_construction_leave_the_linkage_where_they_can(size: tuple[in
     assert "".join(line.text for line in words.captions).count("P") == 4
     rects = [line.around(picture.type) for line in words.captions]
     bars = [
-        [picture.view.place(pose.position[joint]) for joint in body.joints] for body in picture.figure.bodies
+        [picture.view.pixel(pose.position[joint]) for joint in body.joints] for body in picture.figure.bodies
     ]
     assert not [
         rect for rect in rects for ends in bars for pair in combinations(ends, 2) if rect.crossed(*pair)

@@ -72,7 +72,7 @@ def test_the_ticks_cross_the_guide_where_the_slider_turns_back() -> None:
     found, scene = ticks("slider-crank"), load("slider-crank")
     lines = np.concatenate([loop for layer in found.layers for loop in layer.loops])
     for phase in scene.info.dead_centres or ():
-        at = found.setting.view.place(scene.pose(phase).position["B"])
+        at = found.setting.view.pixel(scene.pose(phase).position["B"])
         near = lines[np.abs(lines.real - at.real) < 2]
         assert near.imag.min() < at.imag - found.setting.gauge.bar
         assert near.imag.max() > at.imag + found.setting.gauge.bar

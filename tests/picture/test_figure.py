@@ -138,7 +138,7 @@ def test_a_yoke_has_a_slot_as_long_as_its_pin_needs_and_a_collar_on_it() -> None
     assert slot.imag.max() == pytest.approx(30.0 * VIEW.scale + 0.5 * GAUGE.bar, abs=0.1)
     assert slot.imag.min() == pytest.approx(-30.0 * VIEW.scale - 0.5 * GAUGE.bar, abs=0.1)
     assert abs(slot.real).max() == pytest.approx(0.5 * GAUGE.bar, abs=0.1)
-    assert len(figure(scene).shown) == 3
+    assert len(figure(scene).in_view) == 3
 
 
 def test_a_guide_goes_along_with_the_body_that_carries_it_and_is_in_the_picture() -> None:

@@ -68,7 +68,7 @@ def test_dots_are_equal_times_apart() -> None:
     ink = inked(scene)
     count = len(ink.dots)
     assert count * ink.scale.gap == pytest.approx(scene.period)
-    pixels = [VIEW.place(scene.pose(n * ink.scale.gap, 0).position[ink.joint]) for n in range(count)]
+    pixels = [VIEW.pixel(scene.pose(n * ink.scale.gap, 0).position[ink.joint]) for n in range(count)]
     assert np.allclose(ink.dots, pixels)
     words = ink.scale.interval_words(scene.linkage.drive.speed)
     assert float(words.split()[0]) == pytest.approx(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.picture.marks import beside, measure
+from linkanim.picture.marks import label_beside, measure
 from linkanim.picture.overlay import DimensionLine
 from linkanim.picture.picture import Picture
 from linkanim.scenes import load
@@ -22,7 +22,9 @@ def test_a_value_stands_above_its_bar_and_clear_of_it(half: complex, dimensioned
     begin, end = MIDDLE - half, MIDDLE + half
     shown = DimensionLine(("A", "B"), 0, 1, "120.5 mm", chosen=False)
     (group,) = (
-        measure(setting, begin, end, shown) if dimensioned else [beside(setting, begin, end, "120.5 mm")]
+        measure(setting, begin, end, shown)
+        if dimensioned
+        else [label_beside(setting, begin, end, "120.5 mm")]
     )
     (caption,) = group.captions
     assert caption.text == "120.5 mm"
@@ -38,6 +40,6 @@ def test_a_value_stands_above_its_bar_and_clear_of_it(half: complex, dimensioned
 def test_a_value_stays_on_the_stage(at: complex) -> None:
     setting = Picture(load("crank-rocker"), (640, 360), Look(hud=False)).drawing.setting
     for half in BARS:
-        place = beside(setting, at - half, at + half, "120.5 mm").captions[0].around(setting.type)
+        place = label_beside(setting, at - half, at + half, "120.5 mm").captions[0].around(setting.type)
         assert setting.layout.stage.holds(place.x, place.y)
         assert setting.layout.stage.holds(place.right, place.bottom)

@@ -134,7 +134,7 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
     parts = wheel_parts(DrawContext(shown, view, GAUGE, LIGHT))[::2]
     for phase in np.linspace(0, 7, 40):
         pose = scene.pose(float(phase))
-        places = {name: view.place(point) for name, point in pose.position.items()}
+        places = {name: view.pixel(point) for name, point in pose.position.items()}
         rims = [part.placed(places)[0].loops[0] for part in parts]
         contact = float(np.angle(places["Q"] - places["O"]))
         reach = _profile(rims[0], places["O"], contact)
@@ -152,7 +152,7 @@ def test_teeth_touch_and_never_cut_into_each_other(ratio: Fraction) -> None:
     module = 5 * _module(pairs(shown)[0])
     for phase in np.linspace(0, 1.5, 40):
         pose = scene.pose(float(phase))
-        places = {name: view.place(point) for name, point in pose.position.items()}
+        places = {name: view.pixel(point) for name, point in pose.position.items()}
         one, other = (part.placed(places)[0].loops[0] for part in parts)
         gap = min(_gap(one, other), _gap(other, one))
         assert -0.05 * module < gap < 0.25 * module
@@ -203,7 +203,7 @@ def test_wheels_that_would_dwarf_their_cranks_are_faint_rims_whose_low_teeth_mes
     colours = [part.layers[0].colour for part in parts]
     assert all(contrast(one, LIGHT.background) < contrast(LIGHT.gear, LIGHT.background) for one in colours)
     for phase in np.linspace(0, 1.5, 20):
-        places = {name: VIEW.place(at) for name, at in press.scene.pose(float(phase)).position.items()}
+        places = {name: VIEW.pixel(at) for name, at in press.scene.pose(float(phase)).position.items()}
         one, other = (part.placed(places)[0].loops[0] for part in parts)
         gap = min(_gap(one, other), _gap(other, one)) / VIEW.scale
         assert -0.05 * _module(pair) < gap < 0.25 * _module(pair)
@@ -215,7 +215,7 @@ def test_wheels_larger_than_the_linkage_are_pitch_circles_whose_marks_meet() -> 
     assert (pair.driver.teeth, pair.driver.pitch, pair.belted) == (0, True, False)
     dashes = [len(layer.loops) for layer in wheel_layers(DrawContext(shown, VIEW, GAUGE, LIGHT))]
     assert min(dashes) > 8
-    places = {name: VIEW.place(point) for name, point in shown.scene.pose(0.0).position.items()}
+    places = {name: VIEW.pixel(point) for name, point in shown.scene.pose(0.0).position.items()}
     parts = wheel_parts(DrawContext(shown, VIEW, GAUGE, LIGHT))
     tips = [part.placed(places)[0].loops[0][0] for part in parts]
     assert abs(tips[0] - tips[1]) < 1e-6
@@ -255,12 +255,12 @@ def test_wheels_are_part_of_what_must_be_seen(press: Figure) -> None:
 def test_the_recent_part_ends_at_the_joint_and_lies_on_the_curve(phase: float, forward: bool) -> None:
     scene = load("crank-rocker")
     trace = traces(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))[0]
-    place = VIEW.place(scene.pose(phase).position["P"])
+    place = VIEW.pixel(scene.pose(phase).position["P"])
     layers = trace.recent(phase, place, forward=forward)
     assert layers[-1].colour == trace.colour
     sign = 1 if forward else -1
     past = phase - sign * np.linspace(0, 0.3 * math.tau, 400)
-    before = [VIEW.place(scene.pose(float(then)).position["P"]) for then in past]
+    before = [VIEW.pixel(scene.pose(float(then)).position["P"]) for then in past]
     points = np.concatenate([layer.loops[0] for layer in layers])
     assert np.min(np.abs(layers[-1].loops[0] - place)) < trace.width
     nearest = np.abs(points[:, None] - np.array(before)[None, :]).min(axis=1)
@@ -311,7 +311,7 @@ def _recent(name: str, phase: float, *, forward: bool = True) -> tuple[Trace, li
     shown = figure(scene)
     view = View(100 / (shown.box.right - shown.box.left), 0.0, 0.0)
     trace = traces(DrawContext(shown, view, GAUGE, LIGHT))[0]
-    place = view.place(scene.pose(phase).position[trace.joint])
+    place = view.pixel(scene.pose(phase).position[trace.joint])
     return trace, trace.recent(phase, place, forward=forward)
 
 
@@ -387,7 +387,7 @@ def test_another_speed_keeps_the_arrows_length_and_only_velocity_turns_with_it(
         arrow_layers([arrows], scene.pose(1.0, speed=speed), VIEW, ("B",))[0][1].loops[0]
         for speed in (drive, -4 * drive)
     ]
-    foot = VIEW.place(scene.pose(1.0).position["B"])
+    foot = VIEW.pixel(scene.pose(1.0).position["B"])
     reaches = [loop[3] - foot for loop in loops]
     assert reaches[1] == pytest.approx(-reaches[0] if flips else reaches[0])
 
@@ -401,8 +401,8 @@ def test_every_moving_joint_has_its_arrow_and_its_name(name: str) -> None:
     group = next(group for group in picture.groups(pose) if group.name == "velocity")
     named = {words.text for words in group.captions}
     scale = picture.drawing.parts.arrows[0].scale(pose.input_speed)
-    for joint in picture.figure.shown:
-        alike = [one for one in picture.figure.shown if pose.position[one] == pose.position[joint]]
+    for joint in picture.figure.in_view:
+        alike = [one for one in picture.figure.in_view if pose.position[one] == pose.position[joint]]
         if scale * math.hypot(*pose.velocity[joint]) > picture.layout.small_size:
             assert named & {indexed("v", one) for one in alike}, joint
     assert not any(indexed("v", joint) in named for joint in picture.figure.fixed)
@@ -482,7 +482,7 @@ def test_a_planet_rolls_on_a_wheel_that_stands_still(
     fixed = wheel_layers(DrawContext(shown, view, GAUGE, LIGHT))[0].loops[outline]
     planet_part, *_ = wheel_parts(DrawContext(shown, view, GAUGE, LIGHT))
     for phase in np.linspace(0, 7, 30):
-        places = {name: view.place(point) for name, point in scene.pose(float(phase)).position.items()}
+        places = {name: view.pixel(point) for name, point in scene.pose(float(phase)).position.items()}
         rolling = planet_part.placed(places)[0].loops[0]
         contact = float(np.angle(places["A"] - places["O"]))
         toward = contact if ring else contact + math.pi

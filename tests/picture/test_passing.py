@@ -23,7 +23,7 @@ from linkanim.picture.overlay import (
     Overlay,
     Panel,
 )
-from linkanim.picture.panels import edit_list, foot, said_in
+from linkanim.picture.panels import edit_list, foot, words_at_foot
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -103,23 +103,23 @@ def test_of_all_that_could_be_said_the_most_pressing_is(painter: Picture) -> Non
     board = Board(painter.layout, Type(), LIGHT)
     bar = CommandBar((Button("play", "play", "Space"), Button("chart", "chart", "C", lack="no quantity")))
     said = Overlay(hint=Fading("H keys · Tab next"))
-    assert said_in(board, said) == ("H keys   ·   Tab next", False)
+    assert words_at_foot(board, said) == ("H keys   ·   Tab next", False)
     said = replace(said, watch=Fading("watch P"))
-    assert said_in(board, said) == ("watch P", False)
+    assert words_at_foot(board, said) == ("watch P", False)
     said = replace(said, chip=Fading("25 rpm"))
-    assert said_in(board, said) == ("25 rpm", True)
+    assert words_at_foot(board, said) == ("25 rpm", True)
     said = replace(said, toast="written")
-    assert said_in(board, said) == ("written", True)
+    assert words_at_foot(board, said) == ("written", True)
     said = replace(said, bar=bar._replace(pointed=0))
-    assert said_in(board, said) == ("play   Space", False)
-    assert said_in(board, Overlay(bar=bar._replace(pointed=1))) == ("chart   C: no quantity", False)
-    assert said_in(board, Overlay(chip=Fading("25 rpm", 0))) is None
+    assert words_at_foot(board, said) == ("play   Space", False)
+    assert words_at_foot(board, Overlay(bar=bar._replace(pointed=1))) == ("chart   C: no quantity", False)
+    assert words_at_foot(board, Overlay(chip=Fading("25 rpm", 0))) is None
 
 
 def test_hints_that_have_no_room_in_a_line_lose_their_first_parts() -> None:
     board = Board(layout((320, 180), docked=Docked(bar=True)), Type(), LIGHT)
     words = " · ".join(f"key {n} does something" for n in range(9))
-    told = said_in(board, Overlay(hint=Fading(words)))
+    told = words_at_foot(board, Overlay(hint=Fading(words)))
     assert told
     assert words.endswith(told[0].replace("   ·   ", " · "))
     assert "key 8" in told[0]

@@ -118,9 +118,9 @@ def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_
     lengths = [len(row) for row in found.rows]
     assert sum(lengths) == len(names()) + 1  # an empty sheet leads them
     first, (short, after) = found.rows[0], next(pair for pair in pairwise(found.rows) if len(pair[0]) < 6)
-    assert found.beside(first[2], 1) == found.rows[1][min(2, len(found.rows[1]) - 1)]
-    assert found.beside(after[-1], -1) == short[-1]
-    assert found.beside(first[0], -1) == found.rows[-1][0]
+    assert found.neighbour(first[2], 1) == found.rows[1][min(2, len(found.rows[1]) - 1)]
+    assert found.neighbour(after[-1], -1) == short[-1]
+    assert found.neighbour(first[0], -1) == found.rows[-1][0]
 
 
 @pytest.mark.slow

@@ -20,8 +20,8 @@ def _nearest(name: str, phase: float) -> float:
     shown = figure(load(name))
     pose = shown.scene.pose(phase, 0)
     found = []
-    for n, one in enumerate(shown.shown):
-        for other in shown.shown[n + 1 :]:
+    for n, one in enumerate(shown.in_view):
+        for other in shown.in_view[n + 1 :]:
             apart = np.linalg.norm(shown.cycle.position[one] - shown.cycle.position[other], axis=-1)
             if np.ptp(apart) > 1e-6 * shown.extent:
                 found.append(float(np.hypot(*np.subtract(pose.position[one], pose.position[other]))))

@@ -403,7 +403,7 @@ def test_a_curve_is_not_cut_where_it_enters_a_plate(name: str, phase: float, the
 def _curve_behind_plates(scene: Scene, phase: float, size: tuple[int, int]) -> list[tuple[float, float]]:
     """Return pixels of the traced joint's curve that lie well inside a plate, and behind no bar."""
     shown, painter, pose = figure(scene), Picture(scene, size, BARE), scene.pose(phase)
-    at = {name: painter.view.place(place) for name, place in pose.position.items()}
+    at = {name: painter.view.pixel(place) for name, place in pose.position.items()}
     plates = [[at[name] for name in body.joints] for body in shown.bodies if len(body.joints) > 2]
     bars = [[at[name] for name in body.joints] for body in shown.bodies if len(body.joints) == 2]
     points = [place for name in scene.trace for place in shown.path(name, painter.view)[::3]]

@@ -22,7 +22,7 @@ def test_up_in_the_scene_is_up_in_the_window() -> None:
     view = View(2.0, 100.0, 50.0)
     assert view.to_pixel(0, 0) == (100, 50)
     assert view.to_pixel(3, 4) == (106, 42)
-    assert view.place((3, 4)) == 106 + 42j
+    assert view.pixel((3, 4)) == 106 + 42j
 
 
 def test_zoom_keeps_the_point_it_is_about() -> None:

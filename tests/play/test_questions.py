@@ -279,7 +279,7 @@ def test_the_key_of_a_place_lies_on_no_joint() -> None:
         assert question.kind == "instant centre"
         figured = question_figure(question)
         setting, pose = figured.picture.drawing.setting, load(name).pose(question.phase)
-        joints = [setting.view.place(pose.position[joint]) for joint in setting.figure.shown]
+        joints = [setting.view.pixel(pose.position[joint]) for joint in setting.figure.in_view]
         for _, words in spots(setting, figured.overlay.spots, pose):
             middle = complex(words.at[0], words.at[1] + 0.5 * words.size)
             assert min(abs(middle - joint) for joint in joints) > 0.9 * words.size

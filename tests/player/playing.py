@@ -13,7 +13,7 @@ from linkanim.player.commands import Entries
 from linkanim.player.files import SceneFile
 from linkanim.player.listing import Listing
 from linkanim.player.shown import overlay
-from linkanim.player.state import CHIP_FRAMES, STIR_FRAMES, OneMode, State
+from linkanim.player.state import CHIP_FRAMES, MOUSE_FRAMES, OneMode, State
 from linkanim.player.window import GameKeeper, Window
 from linkanim.synthesis.follower import Reply, Request
 
@@ -50,8 +50,8 @@ class Player:
 
     def settle(self) -> bytes:
         """Let go by what answers a key, the bar, and what to watch for; return the pixels then."""
-        stirred = self.state.stirred
-        self.tick(max(CHIP_FRAMES, 0 if stirred is None else stirred + STIR_FRAMES - self.state.frame))
+        moved = self.state.last_mouse_move
+        self.tick(max(CHIP_FRAMES, 0 if moved is None else moved + MOUSE_FRAMES - self.state.frame))
         while (words := overlay(self.state).watch) and words.eighths and not self.state.look.names:
             self.tick(60)
         return self.pixels

@@ -22,7 +22,7 @@ from playing import NoSearch, fake_start
 from linkanim.cli import main
 from linkanim.export import json_text
 from linkanim.play.arcade import Arcade
-from linkanim.player import beside, files
+from linkanim.player import background, files
 from linkanim.player import window as window_module
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
@@ -140,9 +140,9 @@ class Storm:
         self._is_full = False
         self.met: set[tuple[str, str]] = set()  # modes, and what was carried out in them
         self._found = _found_scenes(folder)
-        patch.setattr(beside, "_start", self._started)
+        patch.setattr(background, "_start", self._started)
         patch.setattr(window_module, "carried", self._carried)
-        patch.setattr(beside, "Following", lambda *_: Search(self._random))
+        patch.setattr(background, "Following", lambda *_: Search(self._random))
         patch.setattr(pygame.joystick, "Joystick", Pad)
         synced = os.fsync
 

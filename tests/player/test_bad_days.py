@@ -13,7 +13,7 @@ import pygame
 import pytest
 from playing import SIZE, Player, fake_start
 
-from linkanim.player import beside
+from linkanim.player import background
 from linkanim.player import screen as display
 from linkanim.player.files import SceneFile
 from linkanim.player.state import State, begin
@@ -28,7 +28,7 @@ fault = pytest.mark.withstands("faults survived")
 def started(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     """The commands of the processes that would have been started."""
     commands: list[list[str]] = []
-    monkeypatch.setattr(beside, "_start", fake_start(commands))
+    monkeypatch.setattr(background, "_start", fake_start(commands))
     return commands
 
 

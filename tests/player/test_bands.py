@@ -12,7 +12,7 @@ from playing import CTRL, SHIFT, NoSearch, Player, menu_in
 
 import linkanim
 from linkanim.mechanics.measures import as_complex
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.bands import ToleranceBand
 from linkanim.player.shown import overlay
@@ -23,7 +23,7 @@ from linkanim.scenes import load
 @pytest.fixture
 def player(here: object, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     del here
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "Following", NoSearch)
     with screen.opened((640, 360)):
         player = Player(begin(load("crank-rocker")))
         player.press(pygame.K_SPACE)

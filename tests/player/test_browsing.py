@@ -71,7 +71,7 @@ def test_every_row_of_k_has_symbol_value_and_unit(name: str) -> None:
 
 
 # What is typed is looked for in token, words and symbol, word by word, whichever its case.
-SIEVES = {
+TYPED = {
     "a token's end": ("travel_velocity", "5.travel_velocity"),
     "words": ("link 3 angular velocity", "3.angular_velocity"),
     "words in another order": ("VELOCITY angular 3", "3.angular_velocity"),
@@ -80,22 +80,22 @@ SIEVES = {
 }
 
 
-@pytest.mark.parametrize(("sieve", "found"), SIEVES.values(), ids=SIEVES)
-def test_letters_sift_the_list(press: State, sieve: str, found: str) -> None:
-    tokens = listed(press.scene, sieve)
+@pytest.mark.parametrize(("typed", "found"), TYPED.values(), ids=TYPED)
+def test_letters_filter_the_list(press: State, typed: str, found: str) -> None:
+    tokens = listed(press.scene, typed)
     assert found in tokens
     assert len(tokens) < len(press.scene.quantities) / 2
 
 
 def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
-    shown = overlay(after(press, "list", Action("sift", "cushion.f"))).quantities
+    shown = overlay(after(press, "list", Action("filter", "cushion.f"))).quantities
     assert shown is not None
     known = quantity(press.scene, "cushion.force")
     ((words, value),) = shown.rows
     assert (words, value.partition(" = ")[0]) == ("Cushion damper: force", known.symbol)
     force = float(value.partition(" = ")[2].removesuffix(" N").replace("−", "-"))
     assert force == pytest.approx(press.scene.pose(0.0).damper["cushion"].force, rel=1e-3)
-    assert (shown.chosen, shown.sieve) == (0, "cushion.f")
+    assert (shown.chosen, shown.typed) == (0, "cushion.f")
 
 
 def test_the_lists_ends_are_ends(press: State) -> None:
@@ -108,24 +108,24 @@ def test_the_lists_ends_are_ends(press: State) -> None:
     bottom = after(top, Action("move", 10_000))
     assert bottom.of(Listing) is not None
     assert the(bottom, Listing).chosen == len(listed(press.scene, "")) - 1
-    only = after(press, "list", Action("sift", "cushion.f"), Action("move", 1))
+    only = after(press, "list", Action("filter", "cushion.f"), Action("move", 1))
     assert only.of(Listing) is not None
     assert the(only, Listing).chosen == 0
 
 
-def test_backspace_takes_one_letter_off_the_sieve(press: State) -> None:
-    state = after(press, "list", Action("sift", "ve"), "unsift")
+def test_backspace_takes_the_last_typed_letter_off(press: State) -> None:
+    state = after(press, "list", Action("filter", "ve"), "erase_filter")
     assert state.of(Listing) is not None
-    assert the(state, Listing).sieve == "v"
+    assert the(state, Listing).typed == "v"
 
 
-def test_sifting_starts_from_the_top(press: State) -> None:
-    state = after(press, "list", Action("move", 5), Action("sift", "v"))
+def test_filtering_starts_from_the_top(press: State) -> None:
+    state = after(press, "list", Action("move", 5), Action("filter", "v"))
     assert state.of(Listing) is not None
-    assert (the(state, Listing).chosen, the(state, Listing).sieve) == (0, "v")
-    state = after(state, Action("move", 2), "unsift")
+    assert (the(state, Listing).chosen, the(state, Listing).typed) == (0, "v")
+    state = after(state, Action("move", 2), "erase_filter")
     assert state.of(Listing) is not None
-    assert (the(state, Listing).chosen, the(state, Listing).sieve) == (0, "")
+    assert (the(state, Listing).chosen, the(state, Listing).typed) == (0, "")
 
 
 def test_the_list_opens_at_what_is_charted(press: State) -> None:
@@ -268,7 +268,7 @@ def _grid(player: Player) -> Grid:
 
 def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
     player.type("o")
-    below = _grid(player).beside(1, 1)
+    below = _grid(player).neighbour(1, 1)
     player.press(pygame.K_RIGHT)
     player.press(pygame.K_DOWN)
     player.press(pygame.K_RETURN)
@@ -296,7 +296,7 @@ def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
 
 
 # What is typed is looked for in name, title and chapter; the best of what is found is chosen, whatever was.
-SIFTED = {
+FILTERED = {
     "a name, among names that have it": ("quick-return-press", "press", "press"),
     "a name with a space": ("press", "slider crank", "slider-crank"),
     "a name before titles": ("press", "watt", "watt-line"),
@@ -308,23 +308,23 @@ SIFTED = {
 }
 
 
-@pytest.mark.parametrize(("on", "typed", "first"), SIFTED.values(), ids=SIFTED)
-def test_letters_sift_the_shelf(on: str, typed: str, first: str) -> None:
-    state = after(begin(load(on)), "shelf", *(Action("sift", letter) for letter in typed))
+@pytest.mark.parametrize(("on", "typed", "first"), FILTERED.values(), ids=FILTERED)
+def test_letters_filter_the_shelf(on: str, typed: str, first: str) -> None:
+    state = after(begin(load(on)), "shelf", *(Action("filter", letter) for letter in typed))
     assert state.of(OpenShelf)
-    found = [the(state, OpenShelf).entries[n] for n in the(state, OpenShelf).found]
+    found = [the(state, OpenShelf).entries[n] for n in the(state, OpenShelf).matches]
     assert the(state, OpenShelf).entries[the(state, OpenShelf).chosen] == first
     assert first in found
     assert len(found) < len(names()) / 2
     moved = after(state, Action("move", len(found)))
     assert moved.of(OpenShelf)
     assert the(moved, OpenShelf).chosen == the(state, OpenShelf).chosen
-    back = after(state, *["unsift"] * len(typed))
+    back = after(state, *["erase_filter"] * len(typed))
     assert back.of(OpenShelf)
-    assert (the(back, OpenShelf).sieve, len(the(back, OpenShelf).found)) == ("", len(names()) + 1)
+    assert (the(back, OpenShelf).typed, len(the(back, OpenShelf).matches)) == ("", len(names()) + 1)
 
 
-def test_the_shelf_is_sifted_with_keys_and_nothing_is_put_on_where_nothing_is_found(player: Player) -> None:
+def test_the_shelf_is_filtered_with_keys_and_nothing_is_put_on_where_nothing_is_found(player: Player) -> None:
     player.type("o")
     player.type("peau")
     player.press(pygame.K_RETURN)
@@ -471,7 +471,7 @@ def test_the_shelf_is_alive_and_still_while_paused(player: Player) -> None:
 def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("linkanim.player.beside._start", fake_start([]))
+    monkeypatch.setattr("linkanim.player.background._start", fake_start([]))
     player.type("g")
     player.type("k")
     player.type("rocker vel")
@@ -487,17 +487,17 @@ def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
     assert last.scene.name == names()[1]
 
 
-def test_a_list_of_very_many_entries_is_sifted_once_for_its_letters(press: State) -> None:
+def test_a_list_of_very_many_entries_is_filtered_once_for_its_letters(press: State) -> None:
     entries = Entries("Many", tuple(ListRow(f"s{n:05}", "", Action("note", "")) for n in range(50_000)))
     opened = press.with_mode(Listing(0, others=entries))
     lists = [overlay(state).quantities for state in (opened, after(opened, Action("move", 3)))]
     assert [one and one.chosen for one in lists] == [0, 3]
     rows = [one and one.rows for one in lists]
     assert rows[0] is rows[1]  # no frame and no key looks at all of them again
-    typed = after(opened, Action("sift", "S49 "), Action("sift", "9999"))
+    typed = after(opened, Action("filter", "S49 "), Action("filter", "9999"))
     assert typed.of(Listing)
-    assert the(typed, Listing).found(press.scene) == ("s49999",)
-    assert after(typed, *["unsift"] * 8).of(Listing) == opened.of(Listing)
+    assert the(typed, Listing).matches(press.scene) == ("s49999",)
+    assert after(typed, *["erase_filter"] * 8).of(Listing) == opened.of(Listing)
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (1080, 2160)])

@@ -24,7 +24,7 @@ from linkanim.picture.sheet_rows import row_rects
 from linkanim.picture.tools import ICONS
 from linkanim.picture.view import Rect
 from linkanim.play.arcade import Arcade
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.files import DraftFile
@@ -467,7 +467,7 @@ def test_the_shelf_begins_with_an_empty_sheet(builder: Builder) -> None:
     builder.press(pygame.K_o)
     browsing = builder.state.of(OpenShelf)
     assert browsing
-    assert browsing.found[0] == NEW
+    assert browsing.matches[0] == NEW
     builder.type("new")
     builder.press(pygame.K_RETURN)
     assert builder.state.mode == "build"
@@ -665,7 +665,7 @@ def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
 def test_a_photograph_dropped_while_linkages_are_looked_for_lays_the_pencil_down(
     builder: Builder, photograph: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "Following", NoSearch)
     builder.press(pygame.K_F2)
     before = builder.state.scene
     builder.press(pygame.K_w, text="w")
@@ -1073,7 +1073,7 @@ def test_letters_of_a_draft_are_off_its_bars(builder: Builder, size: tuple[int, 
     for name in drawing.names(size_):
         at = complex(name.at[0], name.at[1] + 0.62 * size_)
         for bar in (one for one in shown.draft.shapes if one.kind == "bars"):
-            begin, end_ = (picture.view.place(place) for place in bar.places[:2])
+            begin, end_ = (picture.view.pixel(place) for place in bar.places[:2])
             share = ((at - begin) / (end_ - begin)).real
             off = abs(at - begin - min(max(share, 0.0), 1.0) * (end_ - begin))
             assert off > thick.bar + 0.3 * size_, name.text

@@ -16,7 +16,7 @@ from linkanim.play.games import game_of
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
-from linkanim.player.beside import Queue
+from linkanim.player.background import Queue
 from linkanim.player.state import begin
 from linkanim.scenes import load
 

@@ -12,7 +12,7 @@ import pygame
 import pytest
 from playing import SIZE, Player, bar_cells_in, menu_in, the
 
-from linkanim.picture.command_bar import BarPrinter, bar_cells, bar_place
+from linkanim.picture.command_bar import BarPrinter, bar_cells, bar_rect
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import Docked, layout, with_side
 from linkanim.picture.theme import theme_of
@@ -30,7 +30,7 @@ from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.shown import lasting, overlay
-from linkanim.player.state import STIR_FRAMES, State, begin
+from linkanim.player.state import MOUSE_FRAMES, State, begin
 from linkanim.player.taking import TakeDialog
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
@@ -44,7 +44,7 @@ def after(state: State, *actions: Action | str) -> State:
 
 @pytest.fixture
 def rocker() -> State:
-    return after(begin(load("crank-rocker")), "stir")
+    return after(begin(load("crank-rocker")), "mouse_moved")
 
 
 # How each mode of the window is entered.
@@ -70,7 +70,7 @@ in_every_mode = pytest.mark.parametrize("mode", ENTERED)
 
 def entered(mode: str) -> State:
     games = replace(begin(load("crank-rocker")), games=game_of)
-    state = after(games, *ENTERED[mode], "stir")
+    state = after(games, *ENTERED[mode], "mouse_moved")
     assert state.keys.name == mode
     return state
 
@@ -78,18 +78,18 @@ def entered(mode: str) -> State:
 def test_the_bar_shows_for_three_seconds_after_the_mouse_has_moved(rocker: State) -> None:
     assert overlay(begin(load("crank-rocker"))).bar is None
     shown = []
-    for _ in range(STIR_FRAMES + 5):
+    for _ in range(MOUSE_FRAMES + 5):
         found = overlay(rocker).bar
         shown.append(found.eighths if found else 0)
         rocker = advance(rocker)
-    assert STIR_FRAMES == 180
+    assert MOUSE_FRAMES == 180
     assert shown == sorted(shown, reverse=True)
     assert (shown[0], shown[150], shown[178], shown[180], shown[-1]) == (8, 8, 0, 0, 0)
 
 
 def test_the_bar_is_on_no_screenshot_and_no_tape(rocker: State) -> None:
     assert lasting(rocker).bar is None
-    assert not is_taped(Action("stir"))
+    assert not is_taped(Action("mouse_moved"))
 
 
 def test_the_mouse_that_moves_is_no_key(rocker: State) -> None:
@@ -153,7 +153,7 @@ def test_a_button_does_what_its_key_does(player: Player, name: str) -> None:
 
 def test_a_button_of_the_bar_shows_whether_it_is_on(rocker: State) -> None:
     def lit(state: State) -> set[str]:
-        found = bar(after(state, "stir"))
+        found = bar(after(state, "mouse_moved"))
         assert found
         return {button.icon for button in found.buttons if button.on}
 
@@ -218,7 +218,7 @@ def test_a_click_where_the_bar_has_faded_only_brings_it_back(player: Player) -> 
     player.settle()
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
     player.mouse(pygame.MOUSEBUTTONUP, (x, y), button=1)
-    assert (player.state.look.names, player.state.stirred is not None) == (0, True)
+    assert (player.state.look.names, player.state.last_mouse_move is not None) == (0, True)
     click(player, "names, then dimensions")
     assert player.state.look.names == 1
 
@@ -253,7 +253,7 @@ def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_re
     found = bar(entered(mode))
     assert found
     place, cells = layout(size), bar_cells(layout(size), found.buttons)
-    frame = bar_place(place, found)
+    frame = bar_rect(place, found)
     assert frame
     seen = [(cell, button) for cell, button in zip(cells, found.buttons, strict=True) if cell]
     assert any(button.icon == "more" for _, button in seen)
@@ -296,7 +296,7 @@ def test_the_buttons_of_a_chart_leave_its_reading_and_its_title(
     rocker: State, size: tuple[int, int], beside: bool
 ) -> None:
     place = with_side(layout(size, docked=Docked(bar=True)), 2, 0, beside=beside)
-    shown = bar(after(rocker, Action("chart", 1), "stir"))
+    shown = bar(after(rocker, Action("chart", 1), "mouse_moved"))
     assert shown
     assert place.chart
     cells = bar_cells(place, shown.buttons)
@@ -386,7 +386,7 @@ def test_from_the_list_of_dimensions_one_click_leads_to_the_tools_and_one_back(p
 def test_on_an_empty_sheet_there_is_nothing_to_edit(player: Player) -> None:
     pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
     player.press(pygame.K_F2)
-    shown = bar(after(player.state, "stir"))
+    shown = bar(after(player.state, "mouse_moved"))
     assert shown
     (edit,) = (one for one in shown.buttons if one.icon == "edit")
     assert edit.lack
@@ -422,7 +422,7 @@ def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, ta
             listing = player.state.of(Listing)
             if listing or player.state.of(TakeDialog):
                 labels = [one.label for one in taking.rows(player.state)]
-                words = [*listing.found(player.state.scene)] if listing else labels
+                words = [*listing.matches(player.state.scene)] if listing else labels
                 found = (n for n, one in enumerate(words) if one.startswith(name))
                 row = int(name[4:]) if name.startswith("row ") else next(found)
                 y = next(y for y in range(2, 718) if player.window.screen.row_at(60, y) == row)
@@ -565,21 +565,23 @@ def test_nothing_that_is_shown_for_long_is_under_the_bar(size: tuple[int, int], 
         "help": ("help",),
     }
     for look, actions in looks.items():
-        state = after(begun, *actions, "stir")
+        state = after(begun, *actions, "mouse_moved")
         picture = Framing(window=True).fitting(state, size)
         place = picture.layout
-        frame = bar_place(place, bar(state))
+        frame = bar_rect(place, bar(state))
         assert frame
-        assert picture.composition.held(picture.composition.subject).view is picture.composition.view, look
+        assert (
+            picture.composition.while_dragged(picture.composition.subject).view is picture.composition.view
+        ), look
         standing = (place.chart, place.polygons, place.caption)
         assert not any(frame.meets(one) for one in standing if one), look
 
 
 def test_the_help_ends_above_the_bar() -> None:
     with screen.opened((1280, 720)):
-        player = Player(after(begin(load("crank-rocker")), "help", "stir"))
+        player = Player(after(begin(load("crank-rocker")), "help", "mouse_moved"))
         shown = player.window.screen
-        frame = bar_place(shown.last.layout, shown.over.bar)
+        frame = bar_rect(shown.last.layout, shown.over.bar)
         assert frame
         assert all(shown.help_at(x, frame.y) is None for x in range(0, 1280, 20))
         player.window.close()

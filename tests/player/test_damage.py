@@ -77,7 +77,7 @@ def a_hand(random: Random, state: State) -> Iterator[Action]:
     for name in ("hand_down", "hand_to"):
         yield Action(name, (*random.choice([*places, free]), 5.0, 1.0))
     yield Action("hand_up")
-    more = ("remove", "trace_on", "drive_by", "unbuild", "rebuild", "take_number")
+    more = ("remove", "trace_on", "drive_by", "undo_sheet", "redo_sheet", "take_number")
     yield from (Action(name) for name in random.sample(more, 3))
     yield from (Action("further", 1), Action("digits", "5"), Action("take_number"))
 

@@ -10,7 +10,7 @@ import pytest
 from playing import CTRL, NoSearch, Player
 
 from linkanim.play.games import game_of
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.finding import Finder
@@ -22,7 +22,7 @@ from linkanim.scenes.editing import dimensions
 @pytest.fixture
 def player(here: object, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     del here
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "Following", NoSearch)
     with screen.opened((640, 360)):
         player = Player(replace(begin(load("press")), games=game_of))
         player.press(pygame.K_SPACE)

@@ -131,17 +131,17 @@ def test_a_key_while_the_dimensions_are_open(press: Press, typing: bool, action:
     assert action_of(press, "edit", typing=typing) == action
 
 
-# With the list of quantities open what can be drawn sifts it; but Space, H and K, until it does.
+# With the list of quantities open what can be drawn filters it; but Space, H and K, until it does.
 LISTING = {
     "up": (Press("up"), False, Action("move", -1)),
     "page down": (Press("pagedown"), False, Action("move", 10)),
-    "a letter sifts": (Press("v", "v"), False, Action("sift", "v")),
-    "a digit sifts": (Press("5", "5"), False, Action("sift", "5")),
+    "a letter filters": (Press("v", "v"), False, Action("filter", "v")),
+    "a digit filters": (Press("5", "5"), False, Action("filter", "5")),
     "k closes": (Press("k", "k"), False, Action("list")),
-    "k sifts on": (Press("k", "k"), True, Action("sift", "k")),
+    "k filters on": (Press("k", "k"), True, Action("filter", "k")),
     "space pauses": (Press("space", " "), False, Action("pause")),
-    "space parts words": (Press("space", " "), True, Action("sift", " ")),
-    "backspace": (Press("backspace", "\x08"), True, Action("unsift")),
+    "space parts words": (Press("space", " "), True, Action("filter", " ")),
+    "backspace": (Press("backspace", "\x08"), True, Action("erase_filter")),
     "enter": (Press("return", "\r"), True, Action("pick")),
     "escape": (Press("escape", "\x1b"), True, Action("back")),
     "ctrl+s is not text": (Press("s", "s", ctrl=True), True, Action("save")),
@@ -153,14 +153,14 @@ def test_a_key_while_the_quantities_are_open(press: Press, typing: bool, action:
     assert action_of(press, "list", typing=typing) == action
 
 
-# With the shelf open the arrows and Enter are its own, and letters sift it.
+# With the shelf open the arrows and Enter are its own, and letters filter it.
 BROWSING = {
     "left": (Press("left"), Action("move", -1)),
     "down": (Press("down"), Action("row", 1)),
     "enter": (Press("return", "\r"), Action("put_chosen")),
     "o closes": (Press("o", "o"), Action("shelf")),
     "escape": (Press("escape", "\x1b"), Action("back")),
-    "l": (Press("l", "l"), Action("sift", "l")),
+    "l": (Press("l", "l"), Action("filter", "l")),
     "page down": (Press("pagedown"), Action("scroll", 2)),
     "f11": (Press("f11"), Action("fullscreen")),
 }
@@ -186,9 +186,9 @@ def test_keys_that_hold_are_those_that_move() -> None:
     held = {bind.action.name for bind in BINDS if bind.repeats}
     assert held == {
         *("step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"),
-        *("move", "row", "unsift", "scroll", "take_back", "erase_place", "erase_name", "turn", "raise"),
-        *("aim", "lift", "number", "further", "undigit", "unbuild", "rebuild", "dial_on"),
-        *("take_row", "take_turn", "take_untype", "erase_caption", "tolerate"),
+        *("move", "row", "erase_filter", "scroll", "take_back", "erase_place", "erase_name", "turn", "raise"),
+        *("aim", "lift", "number", "further", "erase_number", "undo_sheet", "redo_sheet", "dial_on"),
+        *("take_row", "take_turn", "erase_target", "erase_caption", "tolerate"),
     }
 
 

@@ -17,7 +17,7 @@ from playing import CTRL, SHIFT, NoSearch, Player
 from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.play.games import game_of
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.lesson import Lesson, LessonStep, read
@@ -34,7 +34,7 @@ PLAIN = '[[step]]\nscene = "press"\n'
 @pytest.fixture
 def player(here: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     del here
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "Following", NoSearch)
     with screen.opened((640, 360)):
         player = Player(replace(begin(load("press")), games=game_of))
         player.press(pygame.K_SPACE)

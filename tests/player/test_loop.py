@@ -16,7 +16,7 @@ import pytest
 from playing import fake_start
 
 from linkanim.errors import BadInput, NoDisplay
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.screen import Connection
@@ -117,7 +117,7 @@ def test_whatever_ends_the_window_a_recording_that_runs_is_finished(
     error: BaseException | None, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr(beside, "_start", fake_start(started))
+    monkeypatch.setattr(background, "_start", fake_start(started))
     real = Window.tick
 
     def tick(window: Window, count: int) -> bool:
@@ -151,7 +151,7 @@ PLACE = [(ord(letter), 0, letter) for letter in "films/kite"]
 def test_a_display_server_that_goes_is_told_with_what_is_kept(
     typed: list[tuple[int, int, str]], folder: str, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(beside, "_start", fake_start([]))
+    monkeypatch.setattr(background, "_start", fake_start([]))
     real, made = Window.tick, Connection()
 
     def tick(window: Window, count: int) -> bool:

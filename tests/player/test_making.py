@@ -24,10 +24,10 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.slider import slider_rect
 from linkanim.picture.view import Rect
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.beside import Making
+from linkanim.player.background import Making
 from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.making import LIFTED, Layering
@@ -225,7 +225,7 @@ class _Found:
         self.scene, self.done = scene, True
         self.started.append(folder)
 
-    def found(self) -> str:
+    def result(self) -> str:
         return self.text
 
     def words(self) -> str:
@@ -239,7 +239,7 @@ class _Found:
 def player(monkeypatch: pytest.MonkeyPatch, text: str, here: Path) -> Iterator[Player]:
     monkeypatch.setattr(_Found, "text", text)
     monkeypatch.setattr(_Found, "started", [])
-    monkeypatch.setattr(beside, "Making", _Found)
+    monkeypatch.setattr(background, "Making", _Found)
     with screen.opened((640, 360)):
         player = Player(begin(load("jansen")))
         yield player
@@ -283,7 +283,7 @@ def test_parts_of_what_is_on_are_found_and_written_by_a_process_beside(here: Pat
             if making.done:
                 break
             time.sleep(0.1)
-    assert json.loads(found.found())["layers"] == 2
+    assert json.loads(found.result())["layers"] == 2
     assert "saved: 4 parts in 2 layers" in written.words()
     assert (here / "rocker-parts" / "assembly.html").exists()
     # what another has put there is not written over
@@ -304,9 +304,9 @@ def test_an_answer_that_is_cut_off_is_no_layers(said: bytes, monkeypatch: pytest
         os.write(out, said)
         return fake_start([])(command, message)
 
-    monkeypatch.setattr(beside, "_start", start)
+    monkeypatch.setattr(background, "_start", start)
     found, written = Making(load("kite"), ()), Making(load("kite"), (), Path("kite-parts"))
-    assert json.loads(found.found()) == {"refused": "the search for layers has ended"}
+    assert json.loads(found.result()) == {"refused": "the search for layers has ended"}
     assert " saved: " in written.words()
     for making in (found, written):
         making.close()
@@ -405,7 +405,7 @@ def test_a_construction_is_found_by_its_name_among_all_commands(large: Player, t
 def test_a_menu_of_what_it_is_about_has_each_construction(large: Player, what: str) -> None:
     state = after(large.state, Action("menu", what))
     assert state.of(Listing)
-    names = [row.words for row in menu_in(state).found if row.action.name == "construction"]
+    names = [row.words for row in menu_in(state).matches if row.action.name == "construction"]
     assert names == ["construction of its dead centres", "construction of its instant centres"]
 
 

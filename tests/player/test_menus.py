@@ -11,7 +11,7 @@ import pytest
 from playing import NoSearch, Player, menu_in, the
 
 from linkanim.play.games import game_of
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_known
 from linkanim.player.commands import ListRow, menu_of
@@ -75,7 +75,7 @@ CONSTRUCTED = [
 
 def open_rows(state: State) -> list[ListRow]:
     assert state.of(Listing)
-    return [*menu_in(state).found]
+    return [*menu_in(state).matches]
 
 
 @pytest.mark.thinned(3)
@@ -314,7 +314,7 @@ def test_a_joint_that_is_held_on_and_on_is_only_held(player: Player) -> None:
 
 
 def test_a_pose_that_is_set_down_slowly_is_a_pose(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "Following", NoSearch)
     player.window.state = carried(player.state, Action("poses"))
     player.tick(2)
     for x in (300, 420):
@@ -385,5 +385,5 @@ def test_no_two_commands_of_a_mode_have_one_name(mode: str) -> None:
 def test_the_button_that_leaves_the_sheet_says_so() -> None:
     named = {action: words for words, _, action in commands(KEYS_OF["build"])}
     assert named[Action("build")].startswith("done")
-    assert Action("unbuild") in named
+    assert Action("undo_sheet") in named
     assert Action("undo") not in named

@@ -25,7 +25,7 @@ from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
-from linkanim.player import beside, screen, taking
+from linkanim.player import background, screen, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.shelving import OpenShelf
@@ -454,8 +454,8 @@ def test_a_lecture_is_given_by_one_hand_alone(
     kind: type[Hand], here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(_FromTheTape, "name", kind.name)
-    monkeypatch.setattr(beside, "Following", _Searched if WRITES else _FromTheTape)
-    monkeypatch.setattr("linkanim.player.beside._start", lambda *_: pytest.fail("no process is needed"))
+    monkeypatch.setattr(background, "Following", _Searched if WRITES else _FromTheTape)
+    monkeypatch.setattr("linkanim.player.background._start", lambda *_: pytest.fail("no process is needed"))
     with screen.opened(SIZE):
         player = Player(replace(begin(load(FIRST)), games=game_of))
         player.window._taping = taping = Taping(player.state, SIZE)
@@ -490,7 +490,7 @@ def test_the_tape_of_that_lecture_shows_it(kind: type[Hand]) -> None:
     for name, task in TASKS.items():
         if task.taped:
             assert any(task.done(state) for state in states), name
-    assert Action("stir") not in {action for _, action in read(_kept(kind.name), game_of).actions}
+    assert Action("mouse_moved") not in {action for _, action in read(_kept(kind.name), game_of).actions}
 
 
 # What is seen two gestures after the title, by its doors.
@@ -515,7 +515,7 @@ def test_two_gestures_after_the_title_something_moves_or_asks(
     kind: type[Pointing], door: str, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(_FromTheTape, "name", kind.name)
-    monkeypatch.setattr(beside, "Following", _FromTheTape)
+    monkeypatch.setattr(background, "Following", _FromTheTape)
     second, seen = DOORS[door]
     keeper = Arcade(here / "scores.json")
     with screen.opened(SIZE):

@@ -172,7 +172,7 @@ def test_a_value_that_cannot_be_is_refused_on_the_sheet_as_it_is_without(editor:
         told.append(panel.error)
         again = after(state, "take")
         assert of_label(again, "Coupler 3") == 40
-        assert again.building is None or of_label(after(again, "unbuild"), "Coupler 3") == 85
+        assert again.building is None or of_label(after(again, "undo_sheet"), "Coupler 3") == 85
     assert told[0] == told[1]
     assert told[0]
     assert "the crank cannot turn fully" in told[0]
@@ -258,7 +258,13 @@ def test_a_tape_of_the_mode_plays_it_again(editor: Editor, here: Path) -> None:
     editor.tool("spring")
     editor.tick(3)
     taping = Taping(editor.state, WINDOW)
-    done = [Action("nudge", 2), Action("choose", 1), Action("type", "90"), Action("take"), Action("unbuild")]
+    done = [
+        Action("nudge", 2),
+        Action("choose", 1),
+        Action("type", "90"),
+        Action("take"),
+        Action("undo_sheet"),
+    ]
     state = editor.state
     for action in done:
         state = after(state, action)

@@ -15,11 +15,11 @@ from playing import CTRL, SHIFT, NoSearch, Player, the
 
 from linkanim.picture.cognates import cognate_sides
 from linkanim.picture.view import Rect
-from linkanim.player import beside as following
+from linkanim.player import background as following
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.beside import actions_of, request_of
+from linkanim.player.background import actions_of, request_of
 from linkanim.player.pencil import Pencil, cognate_at
 from linkanim.player.shown import overlay
 from linkanim.player.state import MOVE_FRAMES, TOAST_FRAMES, PathSketch, State, begin
@@ -442,12 +442,12 @@ def test_shift_w_takes_the_scene_s_own_trace(player: Player) -> None:
 def test_the_process_answers_a_stroke(stroke: State) -> None:
     request = request_of(sketch_of(stroke), search=True)
     assert request is not None
-    beside = following.Following()
+    search = following.Following()
     try:
-        beside.ask(request)
-        first, whole, last = beside.wait(), beside.wait(), beside.wait()
+        search.ask(request)
+        first, whole, last = search.wait(), search.wait(), search.wait()
     finally:
-        beside.close()
+        search.close()
     assert first is not None
     assert whole is not None
     assert last is not None

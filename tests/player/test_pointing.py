@@ -16,13 +16,13 @@ from linkanim.picture.board import Board
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.panels import said_in
+from linkanim.picture.panels import words_at_foot
 from linkanim.picture.picture import Picture
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.listing import Listing
-from linkanim.player.pointing import Pointed, PointedThing, thing_at, told
+from linkanim.player.pointing import Pointed, PointedThing, hover_text, thing_at
 from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
@@ -38,7 +38,7 @@ def standing(name: str, phase: float = 1.0, look: Look | None = None) -> State:
 
 
 def lines_of(state: State, thing: PointedThing) -> tuple[str, ...]:
-    found = told(state, Pointed((0.0, 0.0), thing))
+    found = hover_text(state, Pointed((0.0, 0.0), thing))
     assert found
     return found.lines
 
@@ -131,8 +131,8 @@ def test_beside_the_linkage_there_is_nothing() -> None:
 
 def test_it_is_in_no_screenshot() -> None:
     state = standing("crank-rocker")
-    assert overlay(state, pointed=Pointed((0.0, 0.0), PointedThing("joint", "P"))).told
-    assert lasting(state).told is None
+    assert overlay(state, pointed=Pointed((0.0, 0.0), PointedThing("joint", "P"))).hover_text
+    assert lasting(state).hover_text is None
 
 
 @pytest.mark.parametrize(("joint", "count"), [("O2", 0), ("A", 2), ("B", 2)])
@@ -141,16 +141,16 @@ def test_a_joint_has_its_two_arrows_and_its_words_stand_at_the_foot(joint: str, 
     picture = Picture(state.scene, (640, 360), Look(), docked=Docked(bar=True))
     pose, _ = picture.poses(1.0)
     place = pose.position[joint]
-    over = replace(lasting(state), told=told(state, Pointed(place, PointedThing("joint", joint))))
-    (arrows,) = (group for group in picture.groups(pose, over) if group.name == "told-arrows")
+    over = replace(lasting(state), hover_text=hover_text(state, Pointed(place, PointedThing("joint", joint))))
+    (arrows,) = (group for group in picture.groups(pose, over) if group.name == "hover-arrows")
     assert not arrows.captions
     assert len(arrows.layers) == 2 * count  # each on a rim
     for layer in arrows.layers:
-        away = np.abs(np.concatenate(layer.loops) - picture.view.place(place))
+        away = np.abs(np.concatenate(layer.loops) - picture.view.pixel(place))
         assert away.min() < 3 * picture.gauge.line
-    assert over.told
-    words, _ = said_in(Board(picture.layout, picture.type, picture.theme), over) or ("", False)
-    assert words.split("   ·   ") == [*over.told.lines]
+    assert over.hover_text
+    words, _ = words_at_foot(Board(picture.layout, picture.type, picture.theme), over) or ("", False)
+    assert words.split("   ·   ") == [*over.hover_text.lines]
 
 
 @pytest.fixture
@@ -172,8 +172,8 @@ def test_the_trace_and_the_chart_point_at_one_instant(player: Player) -> None:
     place = player.state.scene.pose(2.5, 0).position["P"]
     move(player, shown.pixel(*place))
     assert shown.over.instant == pytest.approx(2.5, abs=0.05)
-    assert shown.over.told
-    assert shown.over.told.lines[0].startswith("crank angle 14")
+    assert shown.over.hover_text
+    assert shown.over.hover_text.lines[0].startswith("crank angle 14")
     area = shown.last._chart.panels[0].plot.area  # type: ignore[union-attr]
     move(player, (area.x + area.width / 4, area.y + area.height / 2))
     assert shown.over.instant == pytest.approx(math.pi / 2, abs=0.05)
@@ -191,12 +191,12 @@ def test_pressed_on_the_trace_its_joint_comes_there(player: Player) -> None:
 def test_a_mouse_that_rests_over_what_runs_reads_nothing_more(player: Player) -> None:
     shown = player.window.screen
     move(player, shown.pixel(*player.state.scene.pose(1.0, 0).position["O4"]))
-    assert shown.over.told
+    assert shown.over.hover_text
     player.tick(400)
-    assert shown.over.told  # it stands
+    assert shown.over.hover_text  # it stands
     player.press(pygame.K_SPACE)
     player.tick(2)
-    assert shown.over.told is None
+    assert shown.over.hover_text is None
 
 
 @pytest.fixture
@@ -257,8 +257,8 @@ def test_the_class_says_why_it_is_that(here: Path) -> None:
         player.settle()
         at = row_of(player, "")
         player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
-        assert player.window.screen.over.told
-        assert "s + l = 150 < p + q = 165" in player.window.screen.over.told.lines
+        assert player.window.screen.over.hover_text
+        assert "s + l = 150 < p + q = 165" in player.window.screen.over.hover_text.lines
         player.drag(at)
         player.tick()
         assert player.state.toast

@@ -12,10 +12,10 @@ import pytest
 from playing import CTRL, NoSearch, Player
 
 from linkanim.picture.overlay import AXIS
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.beside import actions_of, request_of
+from linkanim.player.background import actions_of, request_of
 from linkanim.player.posing import free_joints
 from linkanim.player.shown import overlay
 from linkanim.player.state import LARGEST_DIAL, PoseSketch, SetPose, State, begin
@@ -292,7 +292,7 @@ def test_esc_lets_go_of_what_is_held_first_and_then_leaves(three: State) -> None
     lit = after(three, Action("further", 1))
     assert sketch_of(lit).cursor == ROWS[0][:2]
     gone = after(lit, "back", "back")
-    assert sketch_of(gone).taken is None
+    assert sketch_of(gone).selected is None
     left = after(gone, "back")
     assert left.sketch is None
     assert left.scene == begin(load("crank-rocker")).scene
@@ -317,7 +317,7 @@ def test_a_reply_to_poses_of_before_is_left_out(empty: State) -> None:
 
 @pytest.fixture
 def player(monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
-    monkeypatch.setattr(beside, "Following", lambda *_: NoSearch())
+    monkeypatch.setattr(background, "Following", lambda *_: NoSearch())
     with screen.opened((640, 360)):
         player = Player(begin(load("crank-rocker")))
         player.press(pygame.K_F4)

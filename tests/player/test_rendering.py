@@ -13,7 +13,7 @@ import pytest
 from linkanim import cli
 from linkanim.cli.commands import record as tapes
 from linkanim.errors import WorkFailed
-from linkanim.player import beside
+from linkanim.player import background
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.scenes import load
@@ -34,7 +34,7 @@ def tape() -> Tape:
 def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
     tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch, windows: bool
 ) -> None:
-    unlink, open_ones = Path.unlink, list[beside.Rendering]()
+    unlink, open_ones = Path.unlink, list[background.Rendering]()
 
     def refused(path: Path, missing_ok: bool = False) -> None:
         if not open_ones or not open_ones[0]._log.closed:
@@ -43,11 +43,11 @@ def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
 
     (here / "tmp").mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(here / "tmp"))
-    monkeypatch.setattr(beside, "_start", talking)
+    monkeypatch.setattr(background, "_start", talking)
     if windows:
         monkeypatch.delattr(os, "pread", raising=False)
         monkeypatch.setattr(Path, "unlink", refused)
-    one = beside.render(beside.keep(tape, "gif"))
+    one = background.render(background.keep(tape, "gif"))
     open_ones.append(one)
     one._process.wait()
     for _ in range(2):
@@ -64,8 +64,8 @@ def test_a_rendering_that_runs_says_how_far_it_is(
         os.write(log, b"1/75\r12/75\r")
         return subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
 
-    monkeypatch.setattr(beside, "_start", still_running)
-    one = beside.render(beside.keep(tape, "gif"))
+    monkeypatch.setattr(background, "_start", still_running)
+    one = background.render(background.keep(tape, "gif"))
     process = one._process
     try:
         assert one.words().endswith("kite-1.gif: 16 %")
@@ -82,10 +82,10 @@ def test_a_process_that_cannot_be_started_leaves_nothing_open(
 
     (here / "tmp").mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(here / "tmp"))
-    monkeypatch.setattr(beside, "_start", refused)
+    monkeypatch.setattr(background, "_start", refused)
     before = len(list(Path("/proc/self/fd").iterdir())) if Path("/proc/self/fd").exists() else 0
     with pytest.raises(WorkFailed, match="cannot be started: Resource temporarily unavailable"):
-        beside.render(beside.keep(tape, "gif"))
+        background.render(background.keep(tape, "gif"))
     assert list((here / "tmp").iterdir()) == []
     assert before == (len(list(Path("/proc/self/fd").iterdir())) if before else 0)
 
@@ -108,14 +108,14 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], Running]]:
         found.append((command, Running()))
         return found[-1][1]
 
-    monkeypatch.setattr(beside, "_start", start)
+    monkeypatch.setattr(background, "_start", start)
     return found
 
 
 def test_of_several_recordings_one_is_rendered_and_the_rest_wait(
     tape: Tape, here: Path, started: list[tuple[list[str], Running]]
 ) -> None:
-    queue = beside.Queue()
+    queue = background.Queue()
     for _ in range(3):
         queue.add(tape, "gif")
     assert queue.news() == (f"{Path('recordings', 'kite-1.gif')}: … · 2 wait",)
@@ -132,7 +132,7 @@ def test_of_several_recordings_one_is_rendered_and_the_rest_wait(
 def test_what_waits_when_the_window_closes_is_left_to_one_process(
     tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch, started: list[tuple[list[str], Running]]
 ) -> None:
-    queue = beside.Queue()
+    queue = background.Queue()
     for size in (None, None, (640, 360)):
         queue.add(tape, "gif", size)
     queue.close()

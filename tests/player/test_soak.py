@@ -23,7 +23,7 @@ import pytest
 from playing import SIZE, NoSearch, Player, fake_start
 
 from linkanim.mechanics.motion import mechanism
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import MOVE_FRAMES, State, begin
@@ -201,8 +201,8 @@ def test_what_was_worked_out_for_an_edited_scene_goes_when_another_is_put_on() -
 @pytest.mark.withstands("frames run", 35)
 @pytest.mark.slow
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(beside, "_start", fake_start([]))
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "_start", fake_start([]))
+    monkeypatch.setattr(background, "Following", NoSearch)
     with screen.opened(SIZE):
         painted(35, here, scenes=SOME)
 
@@ -255,8 +255,8 @@ def test_a_window_that_goes_on_takes_no_more_memory(record_property: Callable[[s
 def test_twenty_thousand_painted_frames_take_no_more_memory(
     here: Path, monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:
-    monkeypatch.setattr(beside, "_start", fake_start([]))
-    monkeypatch.setattr(beside, "Following", NoSearch)
+    monkeypatch.setattr(background, "_start", fake_start([]))
+    monkeypatch.setattr(background, "Following", NoSearch)
     with screen.opened(SIZE):
         painted(20_000, here, 0.2)
         before = resident_mb()

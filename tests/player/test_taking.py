@@ -14,7 +14,7 @@ from playing import CTRL, SHIFT, Player
 
 from linkanim.cli import main
 from linkanim.play.games import game_of
-from linkanim.player import beside, screen, taking
+from linkanim.player import background, screen, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.state import State, TakeChoice, begin
@@ -48,7 +48,7 @@ class Asked:
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> Asked:
     found = Asked()
-    monkeypatch.setattr("linkanim.player.beside._start", found)
+    monkeypatch.setattr("linkanim.player.background._start", found)
     return found
 
 
@@ -325,7 +325,7 @@ def test_a_tape_shows_the_dialog_and_what_is_chosen() -> None:
         *(Action("take_turn", 1), Action("take_type", "x"), Action("take_refused", "not there")),
     )
     assert all(map(is_taped, actions))
-    tape = Tape(start, 20, tuple(enumerate((*actions, Action("take_untype"), Action("back")), start=1)))
+    tape = Tape(start, 20, tuple(enumerate((*actions, Action("erase_target"), Action("back")), start=1)))
     states = [*tape.states()]
     assert [bool(one.of(TakeDialog)) for one in states[1:10]] == [True] * 7 + [False] * 2
     chosen, refused = (one.of(TakeDialog) for one in (states[4], states[6]))
@@ -339,7 +339,7 @@ def test_a_closed_dialog_takes_nothing() -> None:
     state = begin(load("crank-rocker"))
     for action in (
         *(Action("take_turn", 1), Action("take_row", 1), Action("take_type", "a")),
-        *(Action("take_untype"), Action("take_refused", "a"), Action("take_places", "a\nb")),
+        *(Action("erase_target"), Action("take_refused", "a"), Action("take_places", "a\nb")),
     ):
         assert replace(advance(state, [action]), frame=0, touched=0) == state
 
@@ -348,14 +348,14 @@ def test_a_closed_dialog_takes_nothing() -> None:
 def test_a_recording_of_the_dialog_is_ours_and_may_be_made_again(here: Path) -> None:
     tape = Tape(begin(load("kite")), 6, ())
     for _ in range(2):
-        kept = beside.keep(tape, "gif", "film.gif")._replace(size="64x36")
-        rendering = beside.render(kept)
+        kept = background.keep(tape, "gif", "film.gif")._replace(size="64x36")
+        rendering = background.render(kept)
         assert rendering._process.wait() == 0
         rendering.close()
     known = json.loads((here / ".linkanim-outputs.json").read_text())["files"]
     assert {*known} == {"film.gif", "film.tape.json"}
     (here / "film.gif").write_bytes(b"mine now")
-    rendering = beside.render(kept)
+    rendering = background.render(kept)
     assert rendering._process.wait() == 2
     assert "was changed after linkanim wrote it" in rendering.words()
     rendering.close()

@@ -108,6 +108,13 @@ def test_a_tape_from_before_names_and_polygons_shows_none(tape: Tape) -> None:
     assert (look.names, look.polygons, look.centres) == (0, False, 0)
 
 
+def test_actions_of_earlier_tapes_are_those_of_today(tape: Tape) -> None:
+    former = (["unbuild"], ["rebuild"], ["undigit"], ["take_untype"], ["unmet", "no linkage"])
+    document = json.loads(json.dumps(to_document(tape))) | {"actions": [[0, *action] for action in former]}
+    names = [action.name for _, action in from_document(document, "mine.tape.json").actions]
+    assert names == ["undo_sheet", "redo_sheet", "erase_number", "erase_target", "no_linkage"]
+
+
 def test_a_file_is_never_written_over(tape: Tape, tmp_path: Path) -> None:
     path = tmp_path / "mine.tape.json"
     path.write_text("mine")
@@ -126,10 +133,10 @@ OUTSIDE = (
     *(Action("record", "gif"), Action("period", "mp4"), Action("take_into", "/home/me/one.gif")),
     *map(Action, ("screenshot", "svg", "share", "make", "save", "save_as", "erase_name", "take_name")),
     *(Action("write_name", "mine"), Action("open_file", "mine.toml"), Action("files", "mine.toml\t1")),
-    *map(Action, ("reload", "fullscreen", "quit", "close", "stir", "take_toast")),
+    *map(Action, ("reload", "fullscreen", "quit", "close", "mouse_moved", "take_toast")),
     *(Action("note", "x"), Action("hint", "x")),
-    *map(Action, ("list", "menu", "shelf", "unsift")),
-    *(Action("sift", "x"), *(Action(name, 1) for name in ("move", "point", "top"))),
+    *map(Action, ("list", "menu", "shelf", "erase_filter")),
+    *(Action("filter", "x"), *(Action(name, 1) for name in ("move", "point", "top"))),
 )
 
 

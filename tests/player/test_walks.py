@@ -12,7 +12,7 @@ from playing import CTRL, SHIFT, NoSearch, Player, bar_cells_in, the
 
 from linkanim.export import json_text
 from linkanim.play.games import game_of
-from linkanim.player import beside, screen
+from linkanim.player import background, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.commands import menu_of
@@ -92,8 +92,8 @@ MODES: dict[str, Callable[[], State]] = {
 @pytest.fixture(params=MODES)
 def player(request: pytest.FixtureRequest, here: object, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     del here
-    monkeypatch.setattr(beside, "Following", NoSearch)
-    monkeypatch.setattr("linkanim.player.beside._start", lambda *_: pytest.fail("no process is needed"))
+    monkeypatch.setattr(background, "Following", NoSearch)
+    monkeypatch.setattr("linkanim.player.background._start", lambda *_: pytest.fail("no process is needed"))
     with screen.opened(SIZE):
         player = Player(MODES[request.param]())
         player.tick(20)

@@ -18,7 +18,7 @@ from playing import CTRL, SHIFT, SIZE, Player, fake_start, the
 
 from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.picture.view import Rect
-from linkanim.player import beside
+from linkanim.player import background
 from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
@@ -276,7 +276,7 @@ def test_escape_leaves_full_screen_then_stops_the_recording(
     player: Player, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr(beside, "_start", fake_start(started))
+    monkeypatch.setattr(background, "_start", fake_start(started))
     player.press(*bare(pygame.K_F11))
     player.press(*plain("g"))
     player.press(*plain("h"))
@@ -290,7 +290,7 @@ def test_escape_leaves_full_screen_then_stops_the_recording(
 
 
 def test_q_asks_once_while_something_is_recorded(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(beside, "_start", fake_start([]))
+    monkeypatch.setattr(background, "_start", fake_start([]))
     player.press(*plain("g"))
     assert player.press(*plain("q"))
     assert player.state.toast is not None
@@ -671,7 +671,7 @@ def test_a_recording_is_taped_and_rendered_beside(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.beside._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.background._start", fake_start(started))
     player.press(*plain("g"))
     player.tick(10)
     player.press(*plain("t"))
@@ -692,7 +692,7 @@ def test_one_period_is_recorded_at_once_in_the_size_that_is_chosen(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.beside._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.background._start", fake_start(started))
     player.press(pygame.K_g, CTRL)
     player.tick()
     tape = read(here / "recordings" / "crank-rocker-1.tape.json")
@@ -720,7 +720,7 @@ def test_closing_the_window_finishes_a_recording(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.beside._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.background._start", fake_start(started))
     player.press(*plain("m"))
     player.tick(9)
     assert player.press(*plain("q"))
@@ -780,7 +780,7 @@ def test_ctrl_o_opens_the_shelf_at_the_scene_files_here_and_puts_one_on(player: 
     assert browsing.chosen == len(browsing.entries)
     player.type("my pr")
     assert player.state.of(OpenShelf)
-    assert the(player.state, OpenShelf).found == (browsing.chosen + 1,)
+    assert the(player.state, OpenShelf).matches == (browsing.chosen + 1,)
     player.press(pygame.K_RETURN)
     assert player.state.scene.name == "my-press"
     assert not player.state.is_covered

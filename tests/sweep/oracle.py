@@ -30,7 +30,7 @@ from random_scenes import scene
 from typed_linkages import Document
 
 from linkanim import child
-from linkanim.player import beside
+from linkanim.player import background
 
 ALWAYS = ("checked", "solved", "held", "swept")
 SHARES = {
@@ -149,6 +149,6 @@ def main(seed: int, first: int, step: int, most: int, folder: Path, seconds: flo
 
 
 if __name__ == "__main__":
-    beside._start = start_nothing
+    background._start = start_nothing
     seed, first, step, most = map(int, sys.argv[1:5])
     main(seed, first, step, most, Path(sys.argv[5]), float(sys.argv[6]) if sys.argv[6:] else SECONDS)

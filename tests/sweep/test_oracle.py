@@ -31,7 +31,7 @@ from outputs import EVERYTHING, MEGABYTES, OUTPUTS, Case, Failure, Output, writt
 from typed_linkages import Document
 
 from linkanim.cli.exits import guarded
-from linkanim.player import beside
+from linkanim.player import background
 
 SEED = 20
 PARTS = 10
@@ -41,7 +41,7 @@ PARTS = 10
 @pytest.fixture(autouse=True)
 def no_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """A recording begun in a window renders nothing."""
-    monkeypatch.setattr(beside, "_start", start_nothing)
+    monkeypatch.setattr(background, "_start", start_nothing)
 
 
 @pytest.mark.long

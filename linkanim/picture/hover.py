@@ -10,7 +10,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group
-from linkanim.picture.overlay import Told
+from linkanim.picture.overlay import HoverText
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc
 
@@ -27,14 +27,16 @@ def greatest(cycle: Motion, joint: str) -> Greatest:
     return speed, acceleration
 
 
-def told_arrows(setting: DrawSetting, pose: Pose, told: Told, most: Greatest | None) -> Iterator[Group]:
+def hover_arrows(
+    setting: DrawSetting, pose: Pose, hover_text: HoverText, most: Greatest | None
+) -> Iterator[Group]:
     """Yield the arrows of the joint under the mouse, to the scale of its own greatest values."""
-    shown = list(_arrows(setting, pose, told.joint, most)) if most and told.joint else []
-    foot = setting.view.place(pose.position[told.joint]) if shown else 0j
-    yield Group("told-arrows", [layer for arrow in shown for layer in arrow.layers(foot)], over=True)
+    shown = list(_arrows(setting, pose, hover_text.joint, most)) if most and hover_text.joint else []
+    foot = setting.view.pixel(pose.position[hover_text.joint]) if shown else 0j
+    yield Group("hover-arrows", [layer for arrow in shown for layer in arrow.layers(foot)], over=True)
 
 
-class _ToldArrow(NamedTuple):
+class _HoverArrow(NamedTuple):
     """An arrow from a joint: its reach in pixels, its colour and the ground's, and its width."""
 
     reach: complex
@@ -43,11 +45,11 @@ class _ToldArrow(NamedTuple):
 
     def layers(self, foot: complex) -> list[Layer]:
         rims = zip(self.colours, (0.0, 0.5 * self.width), strict=True)
-        found = [Layer(colour, arrows([foot], [self.reach], self.width, rim)) for colour, rim in rims]
-        return found[::-1]
+        layers = [Layer(colour, arrows([foot], [self.reach], self.width, rim)) for colour, rim in rims]
+        return layers[::-1]
 
 
-def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Iterator[_ToldArrow]:
+def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Iterator[_HoverArrow]:
     theme, longest = setting.theme, _LONGEST * setting.layout.size[1]
     faster = abs(pose.input_speed / setting.figure.linkage.drive.speed)
     kinds = (
@@ -57,7 +59,7 @@ def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Ite
     for (x, y), largest, colour in kinds:
         reach = longest * complex(x, -y) / largest if largest > 0.0 else 0j
         if 0.01 * longest < abs(reach) <= 2.0 * longest:
-            yield _ToldArrow(reach, (colour, theme.background), 1.8 * setting.gauge.line)
+            yield _HoverArrow(reach, (colour, theme.background), 1.8 * setting.gauge.line)
 
 
 def instant(setting: DrawSetting, places: list[complex]) -> Iterator[Layer]:

@@ -63,7 +63,7 @@ def actions_of(reply: Reply, sketch: Sketch | None) -> Iterator[Action]:
     if sketch is None or reply.stroke != sketch.strokes:
         return
     if reply.error:
-        yield Action("unmet" if isinstance(sketch, PoseSketch) else "note", reply.error)
+        yield Action("no_linkage" if isinstance(sketch, PoseSketch) else "note", reply.error)
     elif not reply.whole:
         yield Action("follow", tuple(reply.numbers))
     else:
@@ -151,21 +151,21 @@ class Making:
         """Whether the process has ended."""
         return self._process.poll() is not None
 
-    def found(self) -> str:
+    def result(self) -> str:
         """Return the layers as JSON on one line; where it has failed, why there are none.
 
         Output that is cut off, as on a full disk, counts as a failure.
         """
         with suppress(ValueError):
             if self._process.poll() == 0:
-                return json.dumps(json.loads(self._said(self._out)), ensure_ascii=False)
+                return json.dumps(json.loads(self._text(self._out)), ensure_ascii=False)
         return json.dumps({"refused": self._reason()}, ensure_ascii=False)
 
     def words(self) -> str:
         """Say where the parts went and what they are, or why there are none."""
         if self._process.poll() != 0 or self._folder is None:
             return self._reason()
-        lines = self._said(self._out).splitlines() or [str(self._folder)]
+        lines = self._text(self._out).splitlines() or [str(self._folder)]
         return f"{where(Path(lines[0]))}: {lines[-1]}"
 
     def close(self) -> None:
@@ -175,10 +175,10 @@ class Making:
         self._room.cleanup()
 
     def _reason(self) -> str:
-        lines = self._said(self._log).strip().splitlines() or ["the search for layers has ended"]
+        lines = self._text(self._log).strip().splitlines() or ["the search for layers has ended"]
         return lines[-1].removeprefix("linkanim: ")
 
-    def _said(self, log: BinaryIO) -> str:
+    def _text(self, log: BinaryIO) -> str:
         log.seek(0)
         return log.read().decode("utf-8", "replace")
 
@@ -246,11 +246,11 @@ def kept_at(place: str) -> Kept:
     target = typed_path(place)
     if reason := intake.unnameable(target.name):
         raise BadInput(f"{shown(target.name)}: {reason}; type another name")
-    found = Kept(target.with_name(f"{target.stem}{tape_file.SUFFIX}"), target)
+    kept = Kept(target.with_name(f"{target.stem}{tape_file.SUFFIX}"), target)
     if checked_folder(target.parent).is_dir():
-        for path in (found.target, found.tape):
+        for path in (kept.target, kept.tape):
             _ours(checked_target(path, (path.suffix,))).refuse_foreign()
-    return found
+    return kept
 
 
 def _ours(path: Path) -> Output:
@@ -277,11 +277,11 @@ class Queue:
 
     def refuse(self, place: str) -> None:
         """Raise BadInput for a place where no recording can be written, or where one is being written."""
-        found, *under_way = (
+        own, *under_way = (
             from_anywhere(str(one.target)) for one in (kept_at(place), self._running, *self._waiting) if one
         )
-        if found in under_way:
-            raise BadInput(f"{found} is being written; type another name")
+        if own in under_way:
+            raise BadInput(f"{own} is being written; type another name")
 
     def news(self) -> tuple[str, ...]:
         """Say how far the present rendering is, and how many wait; when it is done, begin the next."""
