@@ -287,9 +287,15 @@ def _fitting(joint: Joint, context: DrawContext) -> Fitting:
     first, *across = joint.slides
     if first.point != joint.name:
         return _slotted(first, context)
-    if across:
+    if across and across[0].point != joint.name:
         return _yoke(first, across[0], context)
-    return _slider(joint, first.line, context)
+    each = [_slider(joint, slide.line, context) for slide in joint.slides]
+    if not across:
+        return each[0]
+    # a block on several lines: all their slots lie under it
+    behind = tuple(part for one in each for part in one.behind)
+    before = sorted((part for one in each for part in one.before), key=lambda part: part.at == joint.name)
+    return Fitting(behind, tuple(before), next((one.guide for one in each if one.guide), None))
 
 
 def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, Loop, Loop]]:

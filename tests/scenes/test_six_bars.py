@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from linkanim.mechanics.groups import GroupPoint
 from linkanim.scenes import load
 
 Array = NDArray[np.float64]
@@ -24,7 +25,14 @@ def places(name: str, joint: str, steps: int = FINE) -> NDArray[np.complex128]:
 # Watt's two three-pin links are pinned to each other, Stephenson's are not; what is fixed decides the number.
 @pytest.mark.parametrize(
     ("name", "met", "fixed"),
-    [("watt-1", True, 2), ("watt-2", True, 3), ("stephenson-1", False, 2), ("stephenson-3", False, 3)],
+    [
+        ("watt-1", True, 2),
+        ("watt-2", True, 3),
+        ("stephenson-1", False, 2),
+        ("stephenson-2", False, 2),
+        ("stephenson-3", False, 3),
+        ("stephenson-3-link6", False, 3),
+    ],
 )
 def test_a_six_bar_has_its_chain(name: str, met: bool, fixed: int) -> None:
     linkage = load(name).linkage
@@ -64,6 +72,46 @@ def test_the_first_stephensons_pair_moves_at_both_ends() -> None:
     motion = load("stephenson-1").cycle(720)
     for joint in ("C", "D", "E"):
         assert np.min(np.ptp(motion.position[joint], axis=0)) > 20
+
+
+def test_no_link_of_the_second_stephenson_beyond_its_crank_is_found_before_another() -> None:
+    scene = load("stephenson-2")
+    assert scene.info.full_turn
+    (group,) = {joint.group for joint in scene.linkage.joints if isinstance(joint, GroupPoint)}
+    assert {link.name for link in group.free} == {"coupler", "lever", "bar", "bar2"}
+    # At a limit the moments of unit forces along both bars, about A and about O6, would be in one ratio.
+    motion = scene.cycle(720)
+    at = {joint: motion.position[joint] @ [1, 1j] for joint in ("A", "B", "C", "D", "E", "O6")}
+
+    def moment(about: Array, of: Array, to: Array) -> Array:
+        along = (to - of) / np.abs(to - of)
+        return np.asarray(((of - about).conj() * along).imag)
+
+    arms = [moment(at[pin], *bar) for bar in ((at["B"], at["D"]), (at["C"], at["E"])) for pin in ("A", "O6")]
+    assert np.min(np.abs(arms[0] * arms[3] - arms[1] * arms[2])) > 36**2
+
+
+def test_the_third_stephenson_at_link_6_is_where_it_is_published() -> None:
+    pose = load("stephenson-3-link6").pose(0.0)
+    for joint, place in {"B": (5, 16), "C": (25, 25), "E": (18, 35), "F": (43, 32)}.items():
+        assert pose.position[joint] == pytest.approx(place, rel=1e-14), joint
+
+
+# Other programs' position of J after a quarter turn, to forty digits.
+def test_the_double_butterflys_pin_goes_where_it_is_published() -> None:
+    scene = load("double-butterfly")
+    places = scene.solve(angle=math.pi / 2 + math.atan2(1.94, -0.21)).position
+    assert places["J"] == pytest.approx((3.277974954071667, 0.017062641156144212), rel=1e-14)
+
+
+def test_the_plotters_curve_is_closed_after_two_turns_of_the_quicker_motor() -> None:
+    scene = load("plotter")
+    assert scene.mechanism.periods == 2
+    first, half, last = scene.solve(phase=[0.0, 2 * math.pi, 4 * math.pi]).position["P"]
+    assert last == pytest.approx(first, abs=1e-12)
+    assert np.max(np.abs(half - first)) > 10
+    rate = scene.cycle(720).angular_velocity
+    assert rate["right"] == pytest.approx(rate["left"] / 2, rel=1e-14)
 
 
 def meet(p: complex, q: complex, a: float, b: float) -> complex:

@@ -150,6 +150,14 @@ def test_the_trammels_end_draws_an_ellipse() -> None:
     assert np.max(np.abs(y + 60 * np.sin(theta))) <= 4 * EPS * 160
 
 
+def test_oldhams_shafts_turn_alike_and_the_middle_of_the_cross_goes_round_twice() -> None:
+    motion = load("oldham").cycle(720)
+    rate = motion.angular_velocity
+    assert rate["driven"] == pytest.approx(rate["driver"], rel=1e-13)
+    middle = motion.position["M"] @ [1, 1j] - 15
+    assert np.max(np.abs(middle - 15 * np.exp(2j * motion.coordinate))) <= 1e-14 * 50
+
+
 def test_the_oscillating_cylinders_rod_runs_through_its_trunnion() -> None:
     motion = load("oscillating-cylinder").cycle(7200)
     a, p = motion.position["A"], motion.position["P"] - [-90, 0]
