@@ -14,7 +14,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import cache, lru_cache, wraps
+from functools import cache, lru_cache, reduce, wraps
 from gettext import GNUTranslations, NullTranslations
 from pathlib import Path
 from typing import Any, Generic, ParamSpec, TypeVar
@@ -68,8 +68,11 @@ def row_said(words: Sequence[str]) -> str:
 
 
 def sentences(*whole: str) -> str:
-    """Return whole sentences one after the other; empty ones are left out."""
-    return said_as("between sentences", " ").join(filter(None, whole))
+    """Return whole sentences after one another, without the empty ones."""
+    first, *others = [*filter(None, whole)] or [""]
+    return reduce(
+        lambda one, other: said_as("sentences", "{one} {other}", one=one, other=other), others, first
+    )
 
 
 def html_language() -> str:

@@ -29,6 +29,7 @@ from linkanim.picture.text import subscripted
 from linkanim.picture.theme import mixed
 from linkanim.picture.view import Box, Rect
 from linkanim.units import three_digits
+from linkanim.words import said
 
 # Instant centres with Kennedy's lines, and the curves of the coupler's instant centre: both centrodes.
 
@@ -134,8 +135,10 @@ class CentrePairs:
         """Rows as wide as those that say where centres are that the picture does not show."""
         jointed = {label for labels in self.at_joints.values() for label in labels}
         unit_ = self.figure.scene.length_unit
-        named = subscripted(self.figure.fixed[0]) if self.figure.fixed else "the origin"
-        return tuple(f"{label}: 0000 {unit_} from {named}" for _, label in self.pairs if label not in jointed)
+        named = subscripted(self.figure.fixed[0]) if self.figure.fixed else said("the origin")
+        return tuple(
+            _far_off(label, f"0000 {unit_}", named) for _, label in self.pairs if label not in jointed
+        )
 
 
 def _near(places: Loop, box: Box, far: float) -> tuple[complex, ...]:
@@ -214,14 +217,14 @@ class Centres:
                 if (-direction.imag, direction.real) <= (1e-9, 0.0):  # a direction points up, or to the right
                     direction = -direction
                 at = foot + inner.ahead(foot, direction) * direction
-                far.append(Seen(label, at, direction, words=f"{label}: at ∞"))
+                far.append(Seen(label, at, direction, words=said("{centre}: at ∞", centre=label)))
                 continue
             at = view.pixel((place.real, place.imag))
             if room.holds(at.real, at.imag):
                 yield Seen(label, at, jointed=label in jointed)
             elif label not in jointed:
                 direction = unit(at - pin)
-                words = f"{label}: {three_digits(abs(at - pin) / view.scale)} {unit_} from {named}"
+                words = _far_off(label, f"{three_digits(abs(at - pin) / view.scale)} {unit_}", named)
                 edge = foot + inner.ahead(foot, direction) * direction
                 far.append(Seen(label, edge, direction, words=words))
         yield from far
@@ -245,7 +248,7 @@ class Centres:
         """The name of the place from which distances to invisible centres are given, and its pixel."""
         figure, view = self.setting.figure, self.setting.view
         if not figure.fixed:
-            return "the origin", view.pixel((0.0, 0.0))
+            return said("the origin"), view.pixel((0.0, 0.0))
         return subscripted(figure.fixed[0]), figure.pixel(figure.fixed[0], view)
 
     def _lines(
@@ -343,3 +346,7 @@ def _edge(inside: complex, outside: complex, room: Rect) -> list[complex]:
     """Return where a line leaves a rectangle; nothing where the other end is NaN."""
     step = outside - inside
     return [inside + step * room.ahead(inside, step)] if np.isfinite(step) else []
+
+
+def _far_off(centre: str, length: str, place: str) -> str:
+    return said("{centre}: {length} from {place}", centre=centre, length=length, place=place)

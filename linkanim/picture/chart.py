@@ -39,6 +39,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.units import stepped
+from linkanim.words import said
 
 # Charts: a frame with axes, curves and points.
 
@@ -217,7 +218,7 @@ def without_values(plot: Plot, columns: Sequence[ArrayLike], pen: Pen) -> Iterat
     if any(np.isfinite(column).any() for column in columns):
         return
     unbounded = any(np.isinf(column).any() for column in columns)
-    words = "at infinity throughout" if unbounded else "without a value throughout"
+    words = said("at infinity throughout") if unbounded else said("without a value throughout")
     area = plot.area
     at = (area.x + 0.5 * area.width, area.y + 0.5 * area.height - 0.5 * pen.small)
     yield Caption(words, at, pen.small, pen.theme.ink, "centre")
@@ -521,7 +522,7 @@ def chart_strips(
             chart_panel(figure, token, layout, pen, over),
             rect=Rect(rect.x, rect.y + n * high, rect.width, rect.height - n * high if n == last else high),
             lowest=n == last,
-            counted=f", {most - last + n} of {most}" if count < most else "",
+            counted=said(", {number} of {count}", number=most - last + n, count=most) if count < most else "",
         )
         for n, token in enumerate(tokens[most - count :])
     ]

@@ -46,6 +46,7 @@ from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Rect, View
 from linkanim.scenes.editing import ghost_of
 from linkanim.scenes.scene import Scene
+from linkanim.words import kept_as_said
 
 _KEEPS = 0.75
 """The share of its size without words that the linkage keeps: for more words there is no room."""
@@ -192,7 +193,7 @@ def composed(subject: Subject, asked: Wanted, look: Look) -> Composition:
     )
 
 
-@lru_cache(maxsize=8)
+@kept_as_said(8)
 def _composed(subject: Subject, asked: Wanted, look: Look) -> Composition:
     return _Composer(subject, look, asked, letters(), theme_of(look.theme)).composition()
 

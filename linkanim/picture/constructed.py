@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import lru_cache
 from itertools import combinations
 from math import inf
@@ -26,19 +25,20 @@ from linkanim.synthesis.constructions import (
     in_line_parts,
     is_synthesised,
 )
+from linkanim.words import row_said, said, to_say
 
 KINDS: tuple[ConstructionKind, ...] = get_args(ConstructionKind)
 
 NAMES: dict[ConstructionKind, str] = {
-    "synthesis": "construction: how it was found",
-    "dead-centres": "construction of its dead centres",
-    "centres": "construction of its instant centres",
+    "synthesis": to_say("construction: how it was found"),
+    "dead-centres": to_say("construction of its dead centres"),
+    "centres": to_say("construction of its instant centres"),
 }
 """What each construction is called among commands."""
 _TITLES: dict[ConstructionKind, str] = {
-    "synthesis": "its construction",
-    "centres": "the construction of its instant centres",
-    "dead-centres": "the construction of its dead centres",
+    "synthesis": to_say("its construction"),
+    "centres": to_say("the construction of its instant centres"),
+    "dead-centres": to_say("the construction of its dead centres"),
 }
 _REFUSED: dict[ConstructionKind, str] = {
     "synthesis": (
@@ -90,7 +90,7 @@ def kinds_of(scene: Scene) -> tuple[ConstructionKind, ...]:
 
 def title_of(scene: Scene, kind: ConstructionKind) -> str:
     """Return the title of a construction's figure."""
-    return f"{scene.title}: {_TITLES[kind]}"
+    return said("{title}: {part}", title=said(scene.title), part=said(_TITLES[kind]))
 
 
 def usual_kind(scene: Scene) -> ConstructionKind:
@@ -224,12 +224,6 @@ def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
     return tuple(steps)
 
 
-def _listed(words: Iterable[str]) -> str:
-    """Return words as a sentence lists them."""
-    *first, last = words
-    return f"{', '.join(first)} and {last}" if first else last
-
-
 def _named(pair: tuple[str, str]) -> str:
     """Return what a centre is called in a sentence: P₁₃."""
     return label_of(*pair).replace("_{", "").replace("}", "").translate(_LOWERED)
@@ -246,15 +240,13 @@ def _given_words(shown: Figure, centres: dict[tuple[str, str], Centre], given: l
     geared = [pair for pair in given if pair not in joined and pair not in slid]
     words = list[str]()
     if joined:
-        words.append(
-            f"The joints of adjacent links are their instant centres: {_listed(map(_named, joined))}."
-        )
+        names = row_said([*map(_named, joined)])
+        words.append(said("The joints of adjacent links are their instant centres: {names}.", names=names))
     if slid:
-        words.append(
-            f"Across a guide the centre of what slides is infinitely far: {_listed(map(_named, slid))}."
-        )
+        far = row_said([*map(_named, slid)])
+        words.append(said("Across a guide the centre of what slides is infinitely far: {names}.", names=far))
     if geared:
-        words.append(f"Pitch circles touch in {_listed(map(_named, geared))}.")
+        words.append(said("Pitch circles touch in {names}.", names=row_said([*map(_named, geared)])))
     return " ".join(words)
 
 
@@ -270,7 +262,7 @@ def _given_mark(
     foot = complex(*pose.position[slide.point])
     way = way if (way.imag, way.real) > (1e-9, 0.0) else -way
     ends = np.array([foot + _SHORT * size * way, foot])
-    return Mark("dashed", ends, f"to {_named(pair)} at ∞", "first", True)
+    return Mark("dashed", ends, said("to {centre} at ∞", centre=_named(pair)), "first", True)
 
 
 def _kennedy_steps(
@@ -290,17 +282,37 @@ def _kennedy_steps(
             over = _BEYOND * (end - begin)
             marks.append(Mark("dashed", np.array([begin - over, end + over]), tone="third"))
         last = n == len(step.by) - 1
-        if n == 0:
-            words = f"By Kennedy's theorem for links {one}, {third} and {other}, {name} lies on {through}."
-        else:
-            words = f"For links {one}, {third} and {other} it lies on {through}, too"
-            words += (
-                ": there it is." if place is not None else f"; both are parallel: {name} is infinitely far."
-            )
         if not ends and _all_far(step.pair, third, centres):
-            words = f"For links {one}, {third} and {other} the line is at infinity: {name} is infinitely far."
+            words = said(
+                "For links {links} the line is at infinity: {centre} is infinitely far.",
+                links=row_said([one, third, other]),
+                centre=name,
+            )
         elif not ends:
-            words = f"Links {one}, {third} and {other} give no line here: their centres coincide."
+            words = said(
+                "Links {links} give no line here: their centres coincide.",
+                links=row_said([one, third, other]),
+            )
+        elif n == 0:
+            words = said(
+                "By Kennedy's theorem for links {links}, {centre} lies on {line}.",
+                links=row_said([one, third, other]),
+                centre=name,
+                line=through,
+            )
+        elif place is not None:
+            words = said(
+                "For links {links} it lies on {line}, too: there it is.",
+                links=row_said([one, third, other]),
+                line=through,
+            )
+        else:
+            words = said(
+                "For links {links} it lies on {line}, too; both are parallel: {centre} is infinitely far.",
+                links=row_said([one, third, other]),
+                line=through,
+                centre=name,
+            )
         if last and place is not None:
             marks.append(Mark("cross", np.array([place]), name, "first", place in near))
         steps.append(ConstructionStep(words, tuple(marks)))
@@ -320,5 +332,5 @@ def _through(one: tuple[str, str], other: tuple[str, str], centres: dict[tuple[s
     far = [centre is not None and centre.place is None for centre in known]
     if any(far) and not all(far):
         there, here = names if far[0] else names[::-1]
-        return f"the line through {here} towards {there}"
-    return f"the line through {names[0]} and {names[1]}"
+        return said("the line through {one} towards {other}", one=here, other=there)
+    return said("the line through {one} and {other}", one=names[0], other=names[1])

@@ -18,6 +18,7 @@ from linkanim.picture.quantities import driven_words
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import arrows, segments
 from linkanim.units import short, stepped, typeset
+from linkanim.words import said
 
 _TICK = 1.6
 """How far a tick extends beyond the rail, in half widths of a bar."""
@@ -50,8 +51,9 @@ class DeadCentres:
         info = self.setting.figure.scene.info
         lines = [*map(self._angle, info.dead_centres or ())]
         if self.sized and info.stroke and info.time_ratio:
-            stroke = f"stroke {short(info.stroke)} {self.setting.figure.scene.length_unit}"
-            lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
+            stroke = f"{short(info.stroke)} {self.setting.figure.scene.length_unit}"
+            words = said("stroke {length}, time ratio {ratio}", length=stroke, ratio=short(info.time_ratio))
+            lines.append(typeset(words))
         feet = (*zip(self.ends, (-1, 1), strict=True), (sum(self.ends) / 2, 0))
         for text, foot in zip(lines, feet, strict=False):
             yield text, foot[0], partial(self._text_places, *foot)

@@ -21,6 +21,7 @@ from linkanim.picture.shapes import Part, arrows, dashes, directions, segments, 
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import View
 from linkanim.units import short, typeset
+from linkanim.words import said
 
 # Dimension lines with arrows at both ends beside what is measured, the leads to them, and arcs of angles.
 
@@ -197,7 +198,7 @@ def _ground(figure: Figure) -> Iterator[Measurement]:
         if abs(span.imag) > _NONE * figure.extent:
             value, about = (
                 degrees(float(np.angle(span))),
-                f"angle of {_named(first, second)} to the horizontal",
+                said("angle of {line} to the horizontal", line=_named(first, second)),
             )
             yield Measurement(
                 "θ₁", value, about, (first, first), 1, span.conjugate(), frozenset(), angle=True
@@ -216,7 +217,7 @@ def _offsets(figure: Figure) -> Iterator[Measurement]:
             offsets.append((joint.name, off[0] * across))
     for n, (name, foot) in enumerate(offsets, start=1):
         symbol = subscripted(f"e{n}") if len(offsets) > 1 else "e"
-        about = f"{_named(names[0])} to the guide of {_named(name)}"
+        about = said("{pin} to the guide of {joint}", pin=_named(names[0]), joint=_named(name))
         yield Measurement(symbol, abs(foot), about, (names[0], names[0]), 0, foot.conjugate(), frozenset())
 
 
@@ -281,8 +282,10 @@ def _legs(figure: Figure, point: Rigid) -> Iterator[Measurement]:
     (first, second), (along, left), name = point.on, point.at, point.name
     span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
     corner, there = complex(along) / span, complex(along, -left) / span
-    aside = f"{_named(name)} off {_named(first, second)}"
-    level = f"{_named(first)} along {_named(first, second)}" if left else _named(first, name)
+    aside = said("{point} off {line}", point=_named(name), line=_named(first, second))
+    level = _named(first, name)
+    if left:
+        level = said("{point} along {line}", point=_named(first), line=_named(first, second))
     for value, begin, end, about in ((along, 0j, corner, level), (left, corner, there, aside)):
         if value:
             yield Measurement("r", abs(value), about, point.on, begin, end, own)

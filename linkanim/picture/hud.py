@@ -20,7 +20,15 @@ from linkanim.picture.items import Caption, Group, Item, Target, grouped
 from linkanim.picture.layout import Layout
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Arrows
-from linkanim.picture.quantities import driven_words, round_below, sign_of, speed_in, speed_unit, speed_words
+from linkanim.picture.quantities import (
+    driven_name,
+    driven_words,
+    round_below,
+    sign_of,
+    speed_in,
+    speed_unit,
+    speed_words,
+)
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc
 from linkanim.picture.text import Type
@@ -29,6 +37,7 @@ from linkanim.picture.view import Rect, eased
 from linkanim.scenes.editing import beyond_title
 from linkanim.scenes.scene import Scene
 from linkanim.units import stepped, three_digits
+from linkanim.words import name_said, said
 
 if TYPE_CHECKING:
     from linkanim.picture.ink import InkScale
@@ -87,23 +96,30 @@ def rows_of(scene: Scene) -> tuple[Row, ...]:
 
 
 def _input_rows(scene: Scene) -> Iterator[Row]:
-    info, drive = scene.info, scene.linkage.drive
-    name = f"{scene.info.input_name} {drive.coordinate.name}"
+    info, name = scene.info, driven_name(scene)
     if info.full_turn:
         yield Row(0, name, lambda pose: _turned(pose.coordinate))
-        yield Row(1, "input speed", lambda pose: speed_words(scene, pose.input_speed))
+        yield Row(1, said("input speed"), lambda pose: speed_words(scene, pose.input_speed))
     else:
         across = "…".join(driven_words(scene, end) for end in info.input_range)
         yield Row(0, name, lambda pose: driven_words(scene, pose.coordinate))
-        yield Row(5, "input range", lambda _: across)
+        yield Row(5, said("input range"), lambda _: across)
         if info.kept:
-            where = "" if scene.mechanism.retraced else f" at {driven_words(scene, info.kept[0])}"
-            yield Row(5, "returns", lambda _: f"same closure{where}")
-        yield Row(1, "input rate", lambda pose: speed_words(scene, pose.input_speed))
-        yield Row(3, " ".join(filter(None, (drive.actuator.noun, drive.coordinate.velocity))), _live(scene))
+            back = said("same closure")
+            if not scene.mechanism.retraced:
+                back = said("same closure at {place}", place=driven_words(scene, info.kept[0]))
+            yield Row(5, said("returns"), lambda _: back)
+        yield Row(1, said("input rate"), lambda pose: speed_words(scene, pose.input_speed))
+        yield Row(3, _driven_rate(scene), _live(scene))
     if info.true_period != 1:
-        turns = f"{info.true_period} turns"
-        yield Row(6, "true period", lambda _: turns)
+        turns = said("{count} turns", count=info.true_period)
+        yield Row(6, said("true period"), lambda _: turns)
+
+
+def _driven_rate(scene: Scene) -> str:
+    """Return what the rate of the input's coordinate is called: angular velocity, slider velocity."""
+    noun, measure = scene.linkage.drive.actuator.noun, said(scene.linkage.drive.coordinate.velocity)
+    return said("{link} {measure}", link=name_said(noun), measure=measure) if noun else measure
 
 
 def _live(scene: Scene) -> Callable[[Pose], str]:
@@ -135,33 +151,32 @@ def measured(scene: Scene) -> Iterator[MeasuredRow]:
     if usual is not None:
         step = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1
         quantity = register(scene.linkage)[effort_token(scene.linkage)]
-        yield MeasuredRow(2, f"input {scene.info.effort[0]}", quantity, step)
+        words = said("input {effort}", effort=said(scene.info.effort[0]))
+        yield MeasuredRow(2, words, quantity, step)
 
 
 def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
     linkage, known = scene.linkage, register(scene.linkage)
     for item in linkage.springs + linkage.dampers:
         word = linkage.strut_word(item)
-        kind = "spring" if word == "spring" else "damper"
         part = "rate" if word == "damper" else "length"
-        yield MeasuredRow(
-            4, f"{linkage.strut_words(item)}, {part}", known[f"{item.name}.{part}"], scene.length_step
-        )
+        words = said("{strut}, {measure}", strut=linkage.strut_words(item), measure=said(part))
+        yield MeasuredRow(4, words, known[f"{item.name}.{part}"], scene.length_step)
         if item.forceful:
-            yield MeasuredRow(2, f"{kind} force", known[f"{item.name}.force"], 0.1)
+            words = said("spring force") if word == "spring" else said("damper force")
+            yield MeasuredRow(2, words, known[f"{item.name}.force"], 0.1)
     if linkage.drive.actuator.along is not None:
-        yield MeasuredRow(2, "driving cylinder", known["input.length"], scene.length_step)
+        yield MeasuredRow(2, said("driving cylinder"), known["input.length"], scene.length_step)
 
 
 def charted(scene: Scene) -> dict[str, str]:
     """Return the tokens of rows' quantities by the rows' labels: a click on a row charts its quantity."""
-    linkage, info = scene.linkage, scene.info
+    linkage = scene.linkage
     drive, coordinate = linkage.drive, linkage.drive.coordinate
     cranks = (body for body in linkage.bodies if linkage.crank_of(body) and drive.joint in body.joints)
     sliders = (body for body in linkage.bodies if body.slider == drive.joint)
     driven = next((body.name for body in (cranks if coordinate.is_angle else sliders)), "")
-    tokens = {f"{info.input_name} {coordinate.name}": f"{driven}.{coordinate.name}"}
-    tokens[" ".join(filter(None, (drive.actuator.noun, coordinate.velocity)))] = coordinate.rate_token
+    tokens = {driven_name(scene): f"{driven}.{coordinate.name}", _driven_rate(scene): coordinate.rate_token}
     tokens |= {one.label: one.quantity.token for one in measured(scene)}
     return {label: token for label, token in tokens.items() if token in scene.quantities}
 
@@ -206,9 +221,17 @@ def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
     info = scene.info
     if not info.full_turn:
         for limit, at in zip(info.ends, (0.0, pi), strict=True):
-            yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {driven_words(scene, limit)}"
+            yield (
+                _apart(pose.phase, at),
+                _NEAR_LIMIT,
+                said("near the limit {place}", place=driven_words(scene, limit)),
+            )
     for point in info.change_points if scene.linkage.drive.coordinate.is_angle else ():
-        yield _apart(pose.coordinate, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
+        yield (
+            _apart(pose.coordinate, point),
+            _NEAR_CHANGE,
+            said("near the change point {place}", place=_turned(point)),
+        )
 
 
 def _turned(angle: float) -> str:
@@ -310,7 +333,6 @@ INK_LINES = 2
 """The lines of the key to the ink: one for its colours, one for its dots."""
 KEY_STEP = 1.5
 """The step from line to line of the key to the arrows, in heights of its text."""
-_ENDS = ("input", "output")
 _DISC_STEP = 1.2
 """The step from one disc of colour to the next, in heights of the text."""
 
@@ -348,7 +370,10 @@ class Legend:
     def _inked(self, scale: InkScale, line: int, speed: float) -> Iterator[Item]:
         """Yield the key to the ink: its colours up to the greatest speed, and the time between its dots."""
         size, dim, left = self.size, self.theme.dim, self.column.x
-        words = (("speed", scale.greatest_words(speed)), ("dots every", scale.interval_words(speed)))
+        words = (
+            (said("speed"), scale.greatest_words(speed)),
+            (said("dots every"), scale.interval_words(speed)),
+        )
         for n, (name, meaning) in enumerate(words):
             top = self._top(line + n)
             sample = complex(left, top + 0.5 * size)
@@ -367,12 +392,12 @@ class Legend:
             top = self._top(n)
             foot = complex(self.column.x, top + 0.5 * size)
             yield Layer(kind.colour, arrows([foot], [self._sample(kind, speed)[0]], 1.6 * kind.gauge.line))
-            yield Caption(kind.words, (self.column.x + self._reach + 0.6 * size, top), size, dim)
+            yield Caption(said(kind.words), (self.column.x + self._reach + 0.6 * size, top), size, dim)
             yield Caption(self.meaning(kind, speed), (self.column.right, top), size, dim, "right")
 
     def _chained(self, top: float) -> Iterator[Item]:
         """Yield the colours of the steps in which joints are solved, between input and output."""
-        size, (begin, end) = self.size, _ENDS
+        size, begin, end = self.size, said("input"), said("output")
         first = self.column.x + self.type.width(begin, size) + 0.5 * size
         room = self.column.right - self.type.width(end, size) - 0.5 * size - first
         step = min(_DISC_STEP * size, room / len(self.chain))
@@ -518,7 +543,8 @@ def _column(
     lines: list[WordLine] = []
     y = 0.0
     if scenes:
-        title = scenes[0].title if type_.shows(scenes[0].title) else scenes[0].name
+        title = said(scenes[0].title)
+        title = title if type_.shows(title) else scenes[0].name
         across = min(max(least, type_.narrowest(title, big, 2)), room)
         for text in type_.wrapped(title, big, across, strong=True) or ("",):
             lines.append(WordLine(text, y, big, True))
@@ -553,7 +579,7 @@ def _classes(
 
 def _key_width(layout: Layout, type_: Type) -> float:
     size = layout.small_size
-    return 3.2 * size + type_.width("acceleration  00000 mm/s²", size)
+    return 3.2 * size + type_.width(f"{said('acceleration')}  00000 mm/s²", size)
 
 
 def caption_lines(layout: Layout, text: str, type_: Type) -> list[str]:

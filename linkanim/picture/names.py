@@ -37,10 +37,12 @@ from linkanim.picture.placing import (
     off_rects,
     weighed,
 )
+from linkanim.picture.quantities import driven_name
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import Part, Places, directions, framed, hull, segments, unit, units
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
+from linkanim.words import name_said
 
 MOMENTS = 48
 """The moments of one turn of the input at which labels are looked at."""
@@ -638,7 +640,7 @@ class _Labelling:
             return [{body: number for number, body in figure.by_number.items() if body}]
         if not look.names:
             return [{}]
-        named = {body: figure.links[body] for body in figure.numbers}
+        named = {body: name_said(figure.links[body]) for body in figure.numbers}
         shared = len({*figure.numbers.values()}) < len(figure.numbers)
         return [named] if shared or named == figure.numbers else [named, figure.numbers]
 
@@ -764,7 +766,7 @@ class _Labelling:
         unit_, line = figure.scene.length_unit, setting.layout.small_size
         if isinstance(self.turning, Turning):
             symbol, size, scene = self.symbols.input, setting.layout.label_size, figure.scene
-            about = f"{scene.info.input_name} {scene.linkage.drive.coordinate.name}"
+            about = driven_name(scene)
             label = _label(setting, symbol, size, "dim", f"angle:{plain(symbol)}", about)
             yield self._by_arc(label, self.turning)
         for one in sorted(self.symbols.dimensions, key=lambda one: _order(figure, one)):

@@ -17,6 +17,7 @@ from linkanim.mechanics.linkage import Point
 from linkanim.picture.look import ThemeName
 from linkanim.scenes import chapter_of, titles
 from linkanim.scenes.scene import Scene
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
@@ -256,10 +257,10 @@ class Quantities:
 
 NEW = -1
 """The place of an empty sheet on the shelf, before all mechanisms."""
-NEW_TITLE = "New: an empty sheet"
+NEW_TITLE = to_say("New: an empty sheet")
 
 
-MINE = "Mine"
+MINE = to_say("Mine")
 """The chapter of the scene files in the current folder."""
 
 
@@ -306,8 +307,9 @@ def filtered(texts: Mapping[Key, tuple[str, ...]], typed: str) -> tuple[Key, ...
 def searched(entry: Scene | str) -> tuple[str, str, str]:
     """Return the texts by which a mechanism is found: its name, its title, its chapter."""
     if isinstance(entry, str):
-        return entry, titles()[entry], chapter_of(entry) or ""
-    return entry.name, entry.title, entry.chapter
+        entry_chapter = chapter_of(entry) or ""
+        return entry, said(titles()[entry]), said(entry_chapter)
+    return entry.name, said(entry.title), said(entry.chapter)
 
 
 @frozen
@@ -331,12 +333,12 @@ class Browsing:
     @property
     def heading(self) -> str:
         """What stands over it."""
-        return "Mechanisms"
+        return said("Mechanisms")
 
     @property
     def nothing(self) -> str:
         """What is said where nothing has the typed words."""
-        return "no title or chapter contains that"
+        return said("no title or chapter contains that")
 
     def texts(self, place: int) -> tuple[str, str, str]:
         """Return the texts by which the mechanism at a place is found: its name, its title, its chapter."""
@@ -345,7 +347,7 @@ class Browsing:
     @cached_property
     def matches(self) -> tuple[int, ...]:
         """The places of the mechanisms and files that have all the typed words, the best ones first."""
-        files = ((one.title, one.written, MINE) for one in self.own)
+        files = ((one.title, one.written, said(MINE)) for one in self.own)
         texts = dict(enumerate((*map(self.texts, range(len(self.entries))), *files)))
         return filtered({NEW: (NEW_TITLE,), **texts} if self.has_new else texts, self.typed)
 

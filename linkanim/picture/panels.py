@@ -24,6 +24,7 @@ from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
+from linkanim.words import said
 
 # What is said in passing: one sheet of words in the caption's slot.
 
@@ -188,7 +189,11 @@ def _chosen(panel: Panel) -> int | None:
 def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
     """Draw the title, the number of the chosen row, and the facts, lit up while they flash."""
     size, chosen = parts.size, _chosen(panel)
-    count = "" if chosen is None or not panel.counted else f"{chosen + 1} of {len(panel.rows)}"
+    count = (
+        ""
+        if chosen is None or not panel.counted
+        else said("{number} of {count}", number=chosen + 1, count=len(panel.rows))
+    )
     board.head(sheet, size, panel.title, count, board.theme.ink)
     if panel.flash > 0.0 and parts.facts:
         lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
@@ -379,7 +384,9 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     rows, hint = _rows_and_hint(board, shown)
     lines = max(len(rows), 1) + len(hint) + _QUANTITY_FRAME
     sheet = board.sheet(wide, STEP * size * lines)
-    count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
+    count = "0"
+    if shown.rows:
+        count = said("{number} of {count}", number=shown.chosen + 1, count=len(shown.rows))
     typed = (f"{shown.typed}_", board.theme.velocity) if shown.typed else (shown.title, board.theme.ink)
     board.head(sheet, size, typed[0], count, typed[1])
     places = [(row, (0.9 + STEP * (n + 1)) * size) for n, row in enumerate(rows)]
@@ -392,7 +399,7 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
         _quantity_row(board, sheet, shown, row, size, y)
     if not shown.rows:
         at = (1.2 * size, (0.9 + STEP) * size)
-        board.write(sheet, "no name contains that", at, size=size, colour=board.theme.warning)
+        board.write(sheet, said("no name contains that"), at, size=size, colour=board.theme.warning)
     for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
         at = (1.2 * size, (1.1 + STEP * n) * size)
         board.write(sheet, line, at, size=size, colour=board.theme.dim)

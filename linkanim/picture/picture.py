@@ -36,6 +36,7 @@ from linkanim.picture.theme import Theme, on_paper, theme_of
 from linkanim.picture.view import Box, Rect, View, moved
 from linkanim.scenes.editing import ghost_of, in_unit
 from linkanim.scenes.scene import Scene
+from linkanim.words import said
 
 if TYPE_CHECKING:
     from linkanim.picture.polygons import Polygon
@@ -247,8 +248,8 @@ class Picture:
         pen = pen_for(self.layout, self.type, self.theme)
         marks = [self._labelled_once(mark, pose) for step in shown.steps for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
-        facts = f"step {len(shown.steps)} of {shown.total}"
-        facts = facts if self._moment is not None else f"{facts} · F7 goes on"
+        facts = said("step {number} of {count}", number=len(shown.steps), count=shown.total)
+        facts = facts if self._moment is not None else said("{step} · F7 goes on", step=facts)
         beside = slider_rect(self.layout) if leading else None
         yield worded(self.drawing.setting, shown.steps[-1].words, [facts], beside=beside)
         yield from self._slider(leading)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
@@ -22,8 +22,12 @@ from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import arrows, disc, segments
 from linkanim.picture.view import Box, Rect
 from linkanim.units import three_digits
+from linkanim.words import kept_as_said, said, to_say
 
-_TITLES: dict[Order, tuple[str, str]] = {1: ("velocity polygon", "/s"), 2: ("acceleration polygon", "/s²")}
+_TITLES: dict[Order, tuple[str, str]] = {
+    1: (to_say("velocity polygon"), "/s"),
+    2: (to_say("acceleration polygon"), "/s²"),
+}
 _NOTHING = 1e-9
 """Share of a polygon's greatest extent below which a vector has no direction."""
 _COINCIDING = 1e-3
@@ -101,7 +105,7 @@ class Polygon:
 
     def standing(self, phase: float) -> Polygon:
         """Return the polygon at the scale at which the pose at a phase fills its place; its bar says so."""
-        return replace(self, moment=phase, says="at this pose")
+        return replace(self, moment=phase, says=said("at this pose"))
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""
@@ -133,7 +137,7 @@ class Polygon:
             captions.append(meaning)
         if not drawn:
             at_rest = np.isfinite([side.end for side in self.figure.polygon_sides(pose, self.order)]).all()
-            why = "all at rest" if at_rest else "unbounded here"
+            why = said("all at rest") if at_rest else said("unbounded here")
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
             captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
         targets = (Target("polygon", self.rect, self.order),)
@@ -142,7 +146,7 @@ class Polygon:
     @cached_property
     def _title(self) -> Caption:
         """The title, as large as its place is wide."""
-        pen, words = self.pen, _TITLES[self.order][0]
+        pen, words = self.pen, said(_TITLES[self.order][0])
         sizes = range(pen.text, 7, -1)
         size = next((one for one in sizes if pen.type.width(words, one) <= self.rect.width), 8)
         return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
@@ -350,7 +354,7 @@ class Polygon:
             words = f"{arrow.side.symbol} = {three_digits(size) if size >= 1e-3 else '0'} {unit_}"
             rows.append((words, self._colour(arrow.side.sort)))
         if len(listed) < len(left):
-            rows.append((f"and {len(left) - len(listed)} smaller", self.pen.theme.dim))
+            rows.append((said("and {count} smaller", count=len(left) - len(listed)), self.pen.theme.dim))
         return rows
 
     def _corner(
@@ -401,7 +405,7 @@ def _rect(middle: complex, size: tuple[float, float]) -> Rect:
     return Rect(middle.real - size[0] / 2, middle.imag - size[1] / 2, *size)
 
 
-@lru_cache(maxsize=4)
+@kept_as_said(4)
 def polygons_of(
     figure: Figure, rect: Rect, pen: Pen, moment: float | None = None, *, only: int = 0
 ) -> tuple[Polygon, ...]:

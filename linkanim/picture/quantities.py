@@ -21,6 +21,7 @@ from linkanim.mechanics.quantities import Quantity, input_symbol, look_up
 from linkanim.picture.look import Over
 from linkanim.scenes.scene import Scene
 from linkanim.units import SPEED, short, split, stepped, typeset
+from linkanim.words import name_said, said
 
 # What a chart shows of a scene: quantities by name, and their values over one true period.
 
@@ -104,6 +105,12 @@ def driven_words(scene: Scene, value: float) -> str:
     return coordinate.text(value, scene.length_unit, 0.1 if coordinate.is_angle else scene.length_step)
 
 
+def driven_name(scene: Scene) -> str:
+    """Return what the input's coordinate is called: crank angle."""
+    link, measure = name_said(scene.info.input_name), said(scene.linkage.drive.coordinate.name)
+    return said("{link} {measure}", link=link, measure=measure)
+
+
 def speed_unit(scene: Scene) -> str:
     """Return the unit in which the scene states its input's speed, rpm where it states none."""
     return _unit_of(str(scene.document.get("drive", {}).get("speed", "")))
@@ -137,7 +144,9 @@ def speed_words(scene: Scene, speed: float) -> str:
     """
     if not scene.info.full_turn:
         there_and_back = scene.linkage.drive.actuator.cycles
-        return f"{short(abs(speed) * _PER_RADIAN['rpm'])} {there_and_back}/min"
+        count = short(abs(speed) * _PER_RADIAN["rpm"])
+        swings = there_and_back == "swings"
+        return said("{count} swings/min", count=count) if swings else said("{count} cycles/min", count=count)
     unit = speed_unit(scene)
     return f"{typeset(short(speed_in(unit, speed)))} {sign_of(unit)}"
 
@@ -365,17 +374,18 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
     if chosen == "time":
         pace = speed or scene.linkage.drive.speed
         limits = () if turns else tuple(_limits(scene, pace))
-        title = "time (s), back on the same closure" if scene.mechanism.retraced else "time (s)"
+        title = said("time (s), back on the same closure") if scene.mechanism.retraced else said("time (s)")
         return Course(title, "", period / abs(pace), period, 0.0, pace, limits)
     title, origin = input_title(scene), -scene.linkage.drive.start
     if chosen == "phase":
-        title, origin = "phase φ (°)", 0.0
+        title, origin = said("phase φ (°)"), 0.0
     return Course(title, "°", degrees(period), period, origin, radians(1.0))
 
 
 def input_title(scene: Scene) -> str:
     """Return the title of an axis of the driven bar's angle: "crank angle θ₂ (°)"."""
-    return f"{scene.info.input_name} angle {input_symbol(scene.linkage)} (°)"
+    link, symbol = name_said(scene.info.input_name), input_symbol(scene.linkage)
+    return said("{link} angle {symbol} (°)", link=link, symbol=symbol)
 
 
 def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:

@@ -29,6 +29,7 @@ from linkanim.picture.view import Rect
 from linkanim.scenes import load
 from linkanim.scenes.files import opened
 from linkanim.scenes.scene import Scene
+from linkanim.words import said
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -54,7 +55,6 @@ _AT_ONCE = 5
 _BESIDE_A_NEW_ONE = 2
 """The number of other pictures that move in a frame in which a new picture is made."""
 _PER_SECOND = 60
-_UNREAD = "cannot be read"
 
 
 class Grid(NamedTuple):
@@ -192,10 +192,10 @@ class Shape:
 def _chapter(browsing: Browsing, place: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
     if place == NEW:  # the empty sheet stands first in the first chapter
-        return next((_chapter(browsing, n) for n in browsing.matches if n != NEW), MINE)
+        return next((_chapter(browsing, n) for n in browsing.matches if n != NEW), said(MINE))
     if browsing.file_at(place):
-        return MINE
-    name = browsing.texts(place)[2] or "opened"
+        return said(MINE)
+    name = browsing.texts(place)[2] or said("opened")
     return name[:1].upper() + name[1:]
 
 
@@ -257,7 +257,12 @@ class ShelfPrinter:
             elif n in self._unread:
                 at = (cell.middle.real, cell.middle.imag - 0.5 * cells.line)
                 board.write(
-                    surface, _UNREAD, at, size=cells.text, colour=board.theme.warning, anchor="centre"
+                    surface,
+                    said("cannot be read"),
+                    at,
+                    size=cells.text,
+                    colour=board.theme.warning,
+                    anchor="centre",
                 )
             _mark(surface, board, cell, chosen=n == shelf.browsing.chosen, edited=n in shelf.edited)
         surface.set_clip(None)
@@ -324,12 +329,10 @@ def _still(size: tuple[int, int], board: Board, cells: Grid, browsing: Browsing)
     words, colour = (typed, board.theme.velocity) if typed else (browsing.heading, board.theme.ink)
     text, x, y = cells.text, cells.room.x, 0.7 * cells.text
     board.write(still, words, (x, y), size=text, colour=colour, strong=True)
-    count = (
-        f"{len([n for n in browsing.matches if n != NEW])} of {len(browsing.entries) + len(browsing.own)}"
-        if browsing.typed
-        else f"{len(browsing.entries) + len(browsing.own)}"
-    )
-    hint = count if browsing.typed else f"type to filter   {count}"
+    count, found_now = len(browsing.entries) + len(browsing.own), sum(n != NEW for n in browsing.matches)
+    hint = said("type to filter   {count}", count=count)
+    if browsing.typed:
+        hint = said("{number} of {count}", number=found_now, count=count)
     board.write(still, hint, (cells.room.right, y), size=text, colour=board.theme.dim, anchor="right")
     if not browsing.matches:
         board.write(still, browsing.nothing, (x, cells.room.y), size=text, colour=board.theme.warning)
@@ -341,7 +344,7 @@ def _still(size: tuple[int, int], board: Board, cells: Grid, browsing: Browsing)
     for n, cell in cells.cells.items():
         if n == NEW:
             paint(still, [Layer(board.theme.dim, _plus(cell, cells.line, board.layout.unit))])
-            _title(still, board, NEW_TITLE, cell, cells)
+            _title(still, board, said(NEW_TITLE), cell, cells)
             continue
         if file := browsing.file_at(n):
             _title(still, board, file.title, cell, cells, file.written)

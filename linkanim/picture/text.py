@@ -239,6 +239,12 @@ _LOOSE = 7
 """Where an x is no higher than this, in pixels, letters stand a fraction of a pixel further apart."""
 _SUBSCRIPT = re.compile(r"_\{([^{}]*)\}|([\u2080-\u209c\u1d62-\u1d6a\u2c7c]+)")
 _HYPHENED = re.compile(r"[^-]*-|[^-]+")
+_CLOSES, _OPENS = "。，、；：！？）」』》〉】％", "（「『《〈【"
+_WIDE_SIGN = r"\u2e80-\u2fff\u3040-\u9fff\uac00-\ud7af\uf900-\ufaff"
+"""Characters before and after which a line may end: Chinese, Japanese, Korean."""
+_UNSPACED = re.compile(
+    rf"[{_OPENS}]*(?:[{_WIDE_SIGN}]|[^{_WIDE_SIGN}{_OPENS}{_CLOSES}]+)[{_CLOSES}]*|[{_OPENS}{_CLOSES}]+"
+)
 _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
 _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)('*)$")
 
@@ -434,23 +440,27 @@ class Type:
 
     def _in_lines(self, text: str, size: int, width: float, gap: str, *, strong: bool) -> list[str]:
         lines: list[str] = []
-        for word in filter(str.strip, text.split(gap)):
-            longer = f"{lines[-1]}{gap}{word}" if lines else word
+        words = filter(str.strip, text.split(gap))
+        for gap_before, piece in (
+            (gap if n == 0 else "", part) for word in words for n, part in enumerate(unspaced(word))
+        ):
+            longer = f"{lines[-1]}{gap_before}{piece}" if lines else piece
             if lines and self.width(longer, size, strong=strong) <= width:
                 lines[-1] = longer
             else:
-                lines += self._broken(word, size, width, strong=strong)
+                lines += self._broken(piece, size, width, strong=strong)
         return lines
 
     def narrowest(self, text: str, size: int, count: int) -> int:
         """Return the least width in which a semibold text has at most `count` lines, broken between words."""
         key = (text, size, count)
         if key not in self._narrowest:
-            words = text.split()
+            pieces = [piece for word in text.split() for piece in unspaced(word)]
+            widest = max((self.width(piece, size, strong=True) for piece in pieces), default=0)
 
             def fits(width: int) -> bool:
-                lines = self._in_lines(text, size, width, " ", strong=True)
-                return len(lines) <= count and " ".join(lines).split() == words
+                found = self._in_lines(text, size, width, " ", strong=True)
+                return len(found) <= count and width >= widest
 
             if len(self._narrowest) >= _KEPT:
                 self._narrowest.clear()
@@ -472,7 +482,15 @@ class Type:
 
 def hyphened(word: str) -> list[str]:
     """Return the parts of a word between which a line may end, each with the hyphen at its end."""
-    return _HYPHENED.findall(word)
+    return [part for piece in unspaced(word) for part in _HYPHENED.findall(piece)]
+
+
+def unspaced(word: str) -> list[str]:
+    """Return the pieces of what has no space in it between which a line may end: of Chinese, its characters.
+
+    A mark that closes stays with what is before it, one that opens with what follows.
+    """
+    return [word] if word.isascii() else _UNSPACED.findall(word)
 
 
 def _runs(text: str) -> Iterator[Run]:

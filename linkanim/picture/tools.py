@@ -23,6 +23,7 @@ from linkanim.picture.shapes import box, directions, disc, lined, rod, segments,
 from linkanim.picture.text import letters
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
+from linkanim.words import said
 
 _TAKEN = ("tool", "trace_on", "drive_by")
 """Tools whose keys need Ctrl where letters and digits are typed."""
@@ -81,7 +82,7 @@ def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool, *, t
     """Write a tool's name and key beside it."""
     size = board.layout.small_size
     key = f"Ctrl+{tool.key}" if typed and tool.action in _TAKEN else tool.key
-    words = f"{tool.name}   {key}".rstrip()
+    words = f"{said(tool.name)}   {key}".rstrip()
     sheet = board.sheet(board.type.width(words, size) + 1.4 * size, 1.6 * size)
     board.write(sheet, words, (0.7 * size, 0.3 * size), size=size)
     (width, height), gap = board.layout.size, 0.25 * cell.width
