@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from shown_lists import values_in
 
 from linkanim.cli import main
 from linkanim.errors import SceneError
 from linkanim.picture.hud import rows
+from linkanim.picture.lists import Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Panel
 from linkanim.picture.picture import Picture
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
@@ -196,7 +197,7 @@ def _crank(state: State) -> tuple[float, Any]:
 
 
 def _panel(state: State) -> Panel:
-    panel = overlay(state).panel
+    panel = values_in(overlay(state))
     assert panel
     return panel
 

@@ -33,10 +33,11 @@ From the ground up; a module imports from those before it only:
     hud           the words about a scene
     fit           how far what is drawn extends, and the view that fits it into a room
     composition   slots, view and names of a picture
+    board         what every panel is drawn on
+    lists         lists of dimensions, of quantities, of commands
+    game_panel    what a game shows
     overlay       what lies over the picture, as data
     hover         what is under the mouse, in its own words
-    board         what every panel is drawn on
-    game_panel    what a game shows
     tools         the bar of tools
     command_icons  the icons of commands
     command_bar   the bar of commands at the foot

@@ -139,15 +139,6 @@ class Board:
         return max((self.type.width(line, size, strong=strong) for line in lines), default=0)
 
 
-Span = tuple[int, float, float]
-"""A row of a list, and where it begins and ends, down its sheet."""
-
-
-def spans(rows: range, top: float, high: float) -> tuple[Span, ...]:
-    """Return where rows stand that begin at `top` and are so `high`."""
-    return tuple((row, top + n * high, top + (n + 1) * high) for n, row in enumerate(rows))
-
-
 def around(count: int, chosen: int, room: int) -> range:
     """Return which of `count` rows to show where `room` of them fit: at least one.
 

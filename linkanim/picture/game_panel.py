@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import floor
+from typing import Literal
 
 import numpy as np
 import pygame
 
-from linkanim.frozen import NamedTuple
-from linkanim.picture.board import Board, Span
-from linkanim.picture.overlay import Choice, GamePanel, Mood, ScoreBar
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.picture.board import Board
+from linkanim.picture.items import DrawnSheet, Target
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import box, stroke
 from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect
 
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
@@ -33,6 +35,72 @@ _BAR = 0.5
 """The height of a bar."""
 
 
+Mood = Literal["", "right", "wrong", "faint"]
+"""How an answer is shown: plain, as right, as wrong, or as one that no longer counts."""
+
+
+class Choice(NamedTuple):
+    """An answer, or an entry of a menu: its key, its words, the small words below them, and its mood.
+
+    A `curve` of values from −1 to 1 is drawn instead of words.
+    """
+
+    key: str
+    text: str
+    mood: Mood = ""
+    below: str = ""
+    curve: tuple[float, ...] = ()
+
+
+class ScoreBar(NamedTuple):
+    """A score as a bar: its words, how full it is (0 to 1), and where its thresholds stand."""
+
+    label: str
+    words: str
+    full: float
+    marks: tuple[float, ...] = ()
+
+
+@frozen
+class GamePanel:
+    """What a game shows in the room of a list, from its heading down to the keys to press.
+
+    The title's heading is `large`; the words `aside` below the lines are dim. `chosen` is the answer that
+    Enter takes; `verdict` says whether an answer was right, `lines_after` why. A
+    `subject` stands above all of these.
+    """
+
+    heading: str
+    scores: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
+    aside: str = ""
+    choices: tuple[Choice, ...] = ()
+    bars: tuple[ScoreBar, ...] = ()
+    verdict: str = ""
+    well: bool = True
+    subject: str = ""
+    lines_after: tuple[str, ...] = ()
+    hint: str = ""
+    large: bool = False
+    chosen: int | None = None
+
+    def drawn(self, board: Board, pointed: int | None = None) -> DrawnSheet:
+        """Return the panel, its text as large as its room allows, and the places of its answers.
+
+        The mouse is over the answer `pointed`.
+        """
+        size, parts = _fitting(board, self, pointed)
+        sheet, answers = board.sheet(board.layout.lists.width, _height(parts, size)), list[Target]()
+        top = 0.8 * size
+        for part in parts:
+            part.draw(sheet, top)
+            if part.is_answer:
+                place = Rect(0, top, sheet.get_width(), part.high)
+                answers.append(Target("row", place, len(answers)))
+            top += part.high + _GAP * size
+        return DrawnSheet(sheet, tuple(answers))
+
+
 class _PanelPart(NamedTuple):
     """A part: its height, the function that draws it with its top at a height, whether it is an answer."""
 
@@ -41,34 +109,18 @@ class _PanelPart(NamedTuple):
     is_answer: bool = False
 
 
-def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
-    """Return the panel, its text as large as its room allows."""
-    size, parts = _fitting(board, panel)
-    sheet = board.sheet(board.layout.lists.width, _height(parts, size))
-    for part, top in _stacked(parts, size):
-        part.draw(sheet, top)
-    return sheet
-
-
-def answer_rows(board: Board, panel: GamePanel) -> tuple[Span, ...]:
-    """Return where the answers are on the panel's sheet."""
-    size, parts = _fitting(board, panel)
-    heights = [(top, top + part.high) for part, top in _stacked(parts, size) if part.is_answer]
-    return tuple((n, top, end) for n, (top, end) in enumerate(heights))
-
-
 def mood_colour(theme: Theme, mood: Mood) -> Colour:
     """Return the colour in which an answer stands."""
     return {"right": theme.traces[1], "wrong": theme.warning, "faint": theme.dim, "": theme.ink}[mood]
 
 
-def _fitting(board: Board, panel: GamePanel) -> tuple[int, list[_PanelPart]]:
+def _fitting(board: Board, panel: GamePanel, pointed: int | None) -> tuple[int, list[_PanelPart]]:
     """Return the largest text at which all parts fit; at the smallest, answers and as much else as fits."""
     least, less = min(_LEAST, board.layout.text_size), replace(panel, hint="", aside="")
     ways = [(size, panel) for size in range(board.layout.text_size, least - 1, -1)]
     ways += [(least, less), (least, replace(less, scores=(), lines_after=()))]
     for size, shown in ways:
-        parts = [*_parts(board, shown, size)]
+        parts = [*_parts(board, shown, pointed, size)]
         if _height(parts, size) <= board.layout.lists.height:
             break
     return size, parts
@@ -78,14 +130,7 @@ def _height(parts: list[_PanelPart], size: int) -> float:
     return sum(part.high + _GAP * size for part in parts) + 0.9 * size
 
 
-def _stacked(parts: list[_PanelPart], size: int) -> Iterator[tuple[_PanelPart, float]]:
-    top = 0.8 * size
-    for part in parts:
-        yield part, top
-        top += part.high + _GAP * size
-
-
-def _parts(board: Board, panel: GamePanel, size: int) -> Iterator[_PanelPart]:
+def _parts(board: Board, panel: GamePanel, pointed: int | None, size: int) -> Iterator[_PanelPart]:
     ink, dim = board.theme.ink, board.theme.dim
     head = floor(_LARGE * size) if panel.large else size
     yield _words(board, panel.heading, head, ink, strong=True)
@@ -96,7 +141,7 @@ def _parts(board: Board, panel: GamePanel, size: int) -> Iterator[_PanelPart]:
     if panel.aside:
         yield _words(board, panel.aside, max(round(0.85 * size), _LEAST), dim, left=size)
     for n, choice in enumerate(panel.choices):
-        yield _answer(board, panel, n, choice, size)
+        yield _answer(board, (panel.chosen, pointed), n, choice, size)
     for bar in panel.bars:
         yield _bar(board, bar, size)
     if panel.verdict:
@@ -148,7 +193,9 @@ def _scores(board: Board, scores: tuple[str, ...], size: int) -> _PanelPart:
     return _PanelPart(1.05 * small, draw)
 
 
-def _answer(board: Board, panel: GamePanel, n: int, choice: Choice, size: int) -> _PanelPart:
+def _answer(
+    board: Board, lit: tuple[int | None, int | None], n: int, choice: Choice, size: int
+) -> _PanelPart:
     """Return an answer in its frame: the key that takes it, then its words or its curve."""
     theme, small = board.theme, max(round(0.82 * size), _LEAST)
     wide, inset, left = board.layout.lists.width - 1.2 * size, _INSET * size, 2.7 * size
@@ -160,11 +207,11 @@ def _answer(board: Board, panel: GamePanel, n: int, choice: Choice, size: int) -
     colour = mood_colour(theme, choice.mood)
 
     def draw(sheet: pygame.Surface, top: float) -> None:
-        back = board.behind(n, panel.chosen, panel.pointed) or theme.panel
+        back = board.behind(n, *lit) or theme.panel
         middle = complex(sheet.get_width() / 2, top + high / 2)
         loud = choice.mood in ("right", "wrong")
         line, rim = (2.2 if loud else 1.4) * board.layout.unit, colour if loud else theme.rule
-        rim = theme.velocity if n == panel.chosen and not loud else rim
+        rim = theme.velocity if n == lit[0] and not loud else rim
         outer, inner = (middle + box(wide - by, high - by, 0.35 * size) for by in (0.0, 2 * max(line, 1.0)))
         paint(sheet, [Layer(rim, [outer]), Layer(back, [inner])])
         at = (1.5 * size, top + inset)

@@ -34,6 +34,17 @@ class Target(NamedTuple):
         return self._replace(place=self.place._replace(x=self.place.x + x, y=self.place.y + y))
 
 
+class DrawnSheet(NamedTuple):
+    """A drawn sheet, and where it can be clicked, from its upper left corner."""
+
+    sheet: pygame.Surface
+    targets: tuple[Target, ...] = ()
+
+    def at(self, x: float, y: float) -> list[Target]:
+        """Return where it can be clicked with its corner there."""
+        return [one.moved(x, y) for one in self.targets]
+
+
 class Underlay(Protocol):
     """What lies below the shapes of a sheet on surfaces, such as a photograph."""
 

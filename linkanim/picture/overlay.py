@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal, Protocol, Self, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
+from linkanim.picture.game_panel import GamePanel, Mood
+from linkanim.picture.lists import ListPanel
 from linkanim.picture.look import ThemeName
 from linkanim.scenes import chapter_of, titles
 from linkanim.scenes.scene import Scene
@@ -205,54 +207,7 @@ class CommandBar(NamedTuple):
     eighths: int = 8
 
 
-# What lies over the picture for a while: help, the edit list, a toast, the marks of state.
-
-
-@frozen
-class EditRow:
-    """One dimension in the edit list: its name, its value as written, and whether it is chosen.
-
-    A `draft` is a typed value that has not been checked yet.
-    """
-
-    label: str
-    value: str
-    chosen: bool = False
-    draft: bool = False
-
-
-@frozen
-class Panel:
-    """The edit list; `error` says why the chosen value is refused.
-
-    `facts` say what linkage the lengths make; they stand out while `flash` (0 to 1) is above 0. The mouse is
-    over the row `pointed`. Where rows are `counted`, the head says which of how many is chosen.
-    """
-
-    rows: tuple[EditRow, ...]
-    title: str = "Edit dimensions"
-    facts: tuple[str, ...] = ()
-    flash: float = 0.0
-    error: str | None = None
-    hint: str = ""
-    pointed: int | None = None
-    counted: bool = True
-
-
-@frozen
-class Quantities:
-    """A list, for example of quantities: rows of words and symbol, the chosen row's number, the typed text.
-
-    The mouse is over the row `pointed`. Rows with `boxes` have one each, ticked or not.
-    """
-
-    rows: tuple[tuple[str, str], ...]
-    chosen: int
-    typed: str = ""
-    hint: str = ""
-    pointed: int | None = None
-    title: str = "Quantities"
-    boxes: tuple[bool, ...] = ()
+# What lies over the picture for a while: help, a toast, the marks of state.
 
 
 NEW = -1
@@ -431,63 +386,12 @@ class DimensionLine(NamedTuple):
         return self.frame[0] != self.frame[1] and (self.begin, self.end) == (0, 1)
 
 
-Mood = Literal["", "right", "wrong", "faint"]
-"""How an answer is shown: plain, as right, as wrong, or as one that no longer counts."""
-
-
-class Choice(NamedTuple):
-    """An answer, or an entry of a menu: its key, its words, the small words below them, and its mood.
-
-    A `curve` of values from −1 to 1 is drawn instead of words.
-    """
-
-    key: str
-    text: str
-    mood: Mood = ""
-    below: str = ""
-    curve: tuple[float, ...] = ()
-
-
-class ScoreBar(NamedTuple):
-    """A score as a bar: its words, how full it is (0 to 1), and where its thresholds stand."""
-
-    label: str
-    words: str
-    full: float
-    marks: tuple[float, ...] = ()
-
-
 class Spot(NamedTuple):
     """The place of an answer on the picture, in the unit shown, and its mark."""
 
     key: str
     at: Point
     mood: Mood = ""
-
-
-@frozen
-class GamePanel:
-    """What a game shows in the room of a list, from its heading down to the keys to press.
-
-    The title's heading is `large`; the words `aside` below the lines are dim. `chosen` is the answer that
-    Enter takes; the mouse is over `pointed`. `verdict` says whether an answer was right, `lines_after` why. A
-    `subject` stands above all of these.
-    """
-
-    heading: str
-    scores: tuple[str, ...] = ()
-    lines: tuple[str, ...] = ()
-    aside: str = ""
-    choices: tuple[Choice, ...] = ()
-    bars: tuple[ScoreBar, ...] = ()
-    verdict: str = ""
-    well: bool = True
-    subject: str = ""
-    lines_after: tuple[str, ...] = ()
-    hint: str = ""
-    large: bool = False
-    chosen: int | None = None
-    pointed: int | None = None
 
 
 class Lane(NamedTuple):
@@ -539,7 +443,8 @@ class Overlay:
     has words about the thing there, `instant` the phase that the mouse points at on a curve; with `grip` the
     chart's cursor has a grip. `shutter` is how white the picture is, in eighths. The `bar` has the commands;
     `tools` are those of a sheet, beside a list of dimensions. In a `swing` the linkage is between two
-    closures. The share `shut` of an open list is still beyond the window's edge. `hover` is what the mouse is
+    closures. The share `shut` of an open list is still beyond the window's edge; the mouse is over its row
+    `pointed`. `hover` is what the mouse is
     over, for those who describe the rest.
     """
 
@@ -547,8 +452,8 @@ class Overlay:
     toast: str | None = None
     recording: str | None = None
     help: Help | None = None
-    panel: Panel | None = None
-    quantities: Quantities | None = None
+    listed: ListPanel | GamePanel | None = None
+    pointed: int | None = None
     shelf: Shelf | None = None
     drawn: tuple[ModeDrawing, ...] = ()
     alone: Literal["", "sheet", "bare"] = ""
@@ -561,7 +466,6 @@ class Overlay:
     band: BandShown | None = None
     slider: SliderShown | None = None
     swing: SwingShown | None = None
-    game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()
     lane: Lane | None = None
     handles: tuple[str, ...] = ()

@@ -5,8 +5,7 @@ The help has as many columns as the window has room for.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from itertools import chain
 from math import ceil
 from typing import Any
@@ -14,17 +13,16 @@ from typing import Any
 import numpy as np
 import pygame
 
-from linkanim.frozen import NamedTuple, frozen
-from linkanim.picture.board import STEP, Board, Span, around, spans
-from linkanim.picture.game_panel import answer_rows, game_panel
-from linkanim.picture.items import Target
+from linkanim.frozen import NamedTuple
+from linkanim.picture.board import Board
+from linkanim.picture.game_panel import GamePanel
+from linkanim.picture.items import DrawnSheet, Target
 from linkanim.picture.layout import CAPTION_STEP
-from linkanim.picture.overlay import Button, Help, Overlay, Panel, Quantities
+from linkanim.picture.lists import ListPanel, Panel
+from linkanim.picture.overlay import Button, Help, Overlay
 from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc, stroke
-from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
-from linkanim.words import said
 
 # What is said in passing: one sheet of words in the caption's slot.
 
@@ -93,128 +91,6 @@ def _shortened(board: Board, text: str) -> str:
     return _SEPARATOR.join(parts)
 
 
-# The list of dimensions: what the linkage is, the values, and why one is refused.
-
-_FRAME = 2.7
-"""The height of the list's frame, without its rows and the text above and below them, in lines."""
-_FEWEST = 4
-"""Where fewer rows than this would be shown, hints and facts are left out."""
-_NAME = 4.5
-"""The part of a row's name that is shown where its value is too long, in heights of the text."""
-_FLASH = 0.45
-"""The share of the flash's colour in the bar behind the facts at its brightest."""
-
-
-@frozen
-class _Division:
-    """How the list is divided: its text's size and width, the lines above and below the rows, the rows."""
-
-    size: int
-    wide: float
-    facts: list[str]
-    foot: list[tuple[str, Colour]]
-    rows: range
-
-    @property
-    def lines(self) -> float:
-        """The height of the whole list, in lines."""
-        return len(self.facts) + len(self.rows) + len(self.foot) + _FRAME
-
-    @property
-    def top(self) -> float:
-        """How far down the first row's text begins, in heights of the text."""
-        return 0.9 + STEP * (1 + len(self.facts)) + (0.25 if self.facts else 0.0)
-
-
-def edit_list(board: Board, panel: Panel) -> pygame.Surface:
-    """Return the list; where it would not fit at a readable size, only the rows around the chosen one."""
-    parts = _fitting(board, panel)
-    size = parts.size
-    sheet = board.sheet(parts.wide, STEP * size * parts.lines)
-    _head(board, sheet, panel, parts)
-    top = parts.top
-    for k, n in enumerate(parts.rows):
-        _row(board, sheet, panel, n, (top + STEP * k) * size, size)
-    for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
-        board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
-    return sheet
-
-
-def edit_rows(board: Board, panel: Panel) -> tuple[Span, ...]:
-    """Return where the rows are on the list's sheet."""
-    parts = _fitting(board, panel)
-    return spans(parts.rows, (parts.top - (STEP - 1) / 2) * parts.size, STEP * parts.size)
-
-
-def _fitting(board: Board, panel: Panel) -> _Division:
-    """Return the largest text at which all fits; else the smallest, without the hint, then without facts."""
-    sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
-    for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
-        parts = _divided(board, panel, size, (panel.facts, panel.hint))
-        if len(parts.rows) == len(panel.rows) and _needed(board, panel, size) <= parts.wide:
-            return parts
-    for more in ((panel.facts, panel.hint), (panel.facts, ""), ((), "")):
-        parts = _divided(board, panel, sizes[-1], more)
-        if len(parts.rows) >= min(_FEWEST, len(panel.rows)):
-            break
-    return parts
-
-
-def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Division:
-    facts, hint = more
-    wide = board.layout.lists.width
-    room = wide - 2.4 * size
-    lines = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
-    foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
-    foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
-    left = int(_room(board, size) - len(foot) - len(lines))
-    return _Division(size, wide, lines, foot, around(len(panel.rows), _chosen(panel) or 0, left))
-
-
-def _needed(board: Board, panel: Panel, size: int) -> float:
-    """Return how wide the list must be for every name to be written in full."""
-    columns = zip(*((row.label, row.value) for row in panel.rows), strict=True)
-    return sum(board.widest(column, size, strong=True) for column in columns) + 3.9 * size
-
-
-def _room(board: Board, size: int) -> float:
-    """Return how many lines of text have room within the list's frame."""
-    return board.layout.lists.height / STEP / size - _FRAME
-
-
-def _chosen(panel: Panel) -> int | None:
-    return next((n for n, row in enumerate(panel.rows) if row.chosen), None)
-
-
-def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
-    """Draw the title, the number of the chosen row, and the facts, lit up while they flash."""
-    size, chosen = parts.size, _chosen(panel)
-    count = (
-        ""
-        if chosen is None or not panel.counted
-        else said("{number} of {count}", number=chosen + 1, count=len(panel.rows))
-    )
-    board.head(sheet, size, panel.title, count, board.theme.ink)
-    if panel.flash > 0.0 and parts.facts:
-        lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
-        board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(parts.facts))
-    for n, line in enumerate(parts.facts, start=1):
-        board.write(sheet, line, (1.2 * size, (0.8 + STEP * n) * size), size=size)
-
-
-def _row(board: Board, sheet: pygame.Surface, panel: Panel, n: int, y: float, size: int) -> None:
-    row, behind = panel.rows[n], board.behind(n, _chosen(panel), panel.pointed)
-    if behind:
-        board.bar(sheet, y, size, behind)
-    at, colour = (sheet.get_width() - 1.2 * size, y), board.theme.velocity if row.draft else board.theme.ink
-    name = min(board.type.width(row.label, size), _NAME * size)
-    value = board.ending(row.value, size, at[0] - name - 2.0 * size)
-    room = at[0] - board.type.width(value, size, strong=True) - 2.0 * size
-    label = board.fitting((row.label,), size, room)
-    board.write(sheet, label, (1.2 * size, y), size=size, colour=board.theme.dim)
-    board.write(sheet, value, at, size=size, colour=colour, anchor="right", strong=True)
-
-
 # The help: every key and what it does, by subject, in as many columns as the window has room for.
 
 _STEP = 1.32
@@ -250,30 +126,25 @@ class _Laid(NamedTuple):
     high: float
 
 
-def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
+def help_sheet(board: Board, shown: tuple[Help, int]) -> DrawnSheet:
     """Return the help, its text as large as fits above the bar of commands in a room of that width.
 
     Where that would be too small to read, it has the window's height; lines without room there are left out.
     """
-    laid = _help_laid(board, shown)
-    sheet = board.sheet(laid.wide, laid.high)
-    for column, x in _help_columns(laid):
+    laid, keys, left = _help_laid(board, shown), "", 0.0
+    size, sheet = laid.size, board.sheet(laid.wide, laid.high)
+    targets = [Target("help", Rect(0, 0, *sheet.get_size()))]
+    left = 1.4 * size
+    for column in laid.columns:
+        wide = column.keys + column.does + _HELP_GAP * size
         for n, line in enumerate(column.lines):
-            _draw(board, sheet, column, line, (x, (0.9 + _STEP * n) * laid.size), laid.size)
-    return sheet
-
-
-def help_lines(board: Board, shown: tuple[Help, int]) -> tuple[Target, ...]:
-    """Return the places of the lines on the help's sheet, each with its keys."""
-    laid, targets, keys = _help_laid(board, shown), [], ""
-    for column, left in _help_columns(laid):
-        wide = column.keys + column.does + _HELP_GAP * laid.size
-        for n, line in enumerate(column.lines):
+            _draw(board, sheet, column, line, (left, (0.9 + _STEP * n) * size), size)
             keys = line.keys or keys  # the text of a line may be broken; only its first part has the keys
             if line.does and not line.heading:
-                top = (0.9 + (n - 0.12) * _STEP) * laid.size
-                targets.append(Target("line", Rect(left, top, wide, _STEP * laid.size), keys))
-    return tuple(targets)
+                place = Rect(left, (0.9 + (n - 0.12) * _STEP) * size, wide, _STEP * size)
+                targets.append(Target("line", place, keys))
+        left += wide + 2 * _HELP_GAP * size
+    return DrawnSheet(sheet, tuple(targets))
 
 
 def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
@@ -286,14 +157,6 @@ def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
             if laid.wide <= wide + 1 and laid.high <= _WIDEST * high:
                 return laid
     return laid
-
-
-def _help_columns(laid: _Laid) -> Iterator[tuple[_Column, float]]:
-    """Yield the columns, each with its left edge."""
-    x = 1.4 * laid.size
-    for column in laid.columns:
-        yield column, x
-        x += column.keys + column.does + 3 * _HELP_GAP * laid.size
 
 
 def _ways(board: Board, groups: Help, room: float) -> Iterator[_Laid]:
@@ -361,136 +224,6 @@ def _draw(
     board.write(sheet, line.does, beside, size=size, colour=board.theme.dim)
 
 
-# The list of quantities: their words and symbols, the text typed to filter them, the chosen one.
-
-_QUANTITY_FRAME = 2.6
-"""The height of the list's frame, without its rows and hint, in lines."""
-_ABBREVIATED = {
-    **{"second ": "2nd ", "kinematic coefficient": "kin. coeff.", " spring:": ":", " damper:": ":"},
-    **{"acceleration": "accel.", "angular": "ang.", "tangential": "tang.", "kin. ": ""},
-}
-"""How words of quantities are abbreviated where room is short, one after the other."""
-_NUMBER, _USUAL = r"[−\d.∞]+", "−0.8888"
-"""A number in a value, and one as wide as most."""
-_GAP = 0.7
-"""The gaps between words, symbol and value, in heights of their text."""
-_BOX = 2.5
-"""Where the words of rows with boxes begin, in heights of their text."""
-
-
-def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
-    """Return the list, as many rows around the chosen one as the window has room for."""
-    size, wide = board.layout.small_size, board.layout.lists.width
-    rows, hint = _rows_and_hint(board, shown)
-    lines = max(len(rows), 1) + len(hint) + _QUANTITY_FRAME
-    sheet = board.sheet(wide, STEP * size * lines)
-    count = "0"
-    if shown.rows:
-        count = said("{number} of {count}", number=shown.chosen + 1, count=len(shown.rows))
-    typed = (f"{shown.typed}_", board.theme.velocity) if shown.typed else (shown.title, board.theme.ink)
-    board.head(sheet, size, typed[0], count, typed[1])
-    places = [(row, (0.9 + STEP * (n + 1)) * size) for n, row in enumerate(rows)]
-    for row, y in places:
-        if behind := board.behind(row, shown.chosen, shown.pointed):
-            board.bar(sheet, y, size, behind)
-    if shown.boxes:
-        _boxes(board, sheet, [(y, shown.boxes[row]) for row, y in places], size)
-    for row, y in places:
-        _quantity_row(board, sheet, shown, row, size, y)
-    if not shown.rows:
-        at = (1.2 * size, (0.9 + STEP) * size)
-        board.write(sheet, said("no name contains that"), at, size=size, colour=board.theme.warning)
-    for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
-        at = (1.2 * size, (1.1 + STEP * n) * size)
-        board.write(sheet, line, at, size=size, colour=board.theme.dim)
-    if track := scroll_track(board, shown):
-        _scroll_bar(board, sheet, track, rows, len(shown.rows))
-    return sheet
-
-
-def scroll_track(board: Board, shown: Quantities) -> Rect | None:
-    """Return the track of a list's scroll bar on its sheet; None where all rows are visible."""
-    size, (rows, _) = board.layout.small_size, _rows_and_hint(board, shown)
-    if len(rows) == len(shown.rows):
-        return None
-    wide = 1.4 * size
-    top = (0.9 + 0.5 * (STEP + 1)) * size
-    return Rect(round(board.layout.lists.width) - wide, top, wide, STEP * size * len(rows))
-
-
-def _scroll_bar(board: Board, sheet: pygame.Surface, track: Rect, rows: range, count: int) -> None:
-    """Draw the scroll bar, which shows the part of a list's rows that is visible."""
-    wide, x = 0.32 * board.layout.small_size, track.x + 0.6 * track.width
-    begin, end = (track.y + track.height * row / count for row in (rows.start, rows.stop))
-    whole, part = (
-        complex(x, (top + foot) / 2) + box(wide, foot - top, wide / 2)
-        for top, foot in ((track.y, track.bottom), (begin, max(end, begin + 2 * wide)))
-    )
-    paint(sheet, [Layer(board.theme.rule, [whole]), Layer(board.theme.dim, [part])])
-
-
-def quantity_rows(board: Board, shown: Quantities) -> tuple[Span, ...]:
-    """Return where the rows are on the list's sheet."""
-    size = board.layout.small_size
-    return spans(_rows_and_hint(board, shown)[0], (0.9 + 0.5 * (STEP + 1)) * size, STEP * size)
-
-
-def _rows_and_hint(board: Board, shown: Quantities) -> tuple[range, list[str]]:
-    """Return which rows there is room for, and the lines of the hint, if there is room for it."""
-    size, place = board.layout.small_size, board.layout.lists
-    hint = board.type.wrapped(shown.hint, size, place.width - 2.4 * size, gap="   ")
-    room = int(place.height / STEP / size - _QUANTITY_FRAME)
-    hint = hint if room - len(hint) >= 4 else []
-    return around(len(shown.rows), shown.chosen, room - len(hint)), hint
-
-
-def _quantity_row(
-    board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float
-) -> None:
-    """Write a row: its value at the right, the symbol before it, and its words in the room that remains.
-
-    The symbol keeps its place while the value's digits change.
-    """
-    begin, right = (_BOX if shown.boxes else 1.2) * size, sheet.get_width() - 1.2 * size
-    words, told = shown.rows[row]
-    symbol, _, value = told.rpartition(" = ")
-    taken: float = board.widest((value, re.sub(_NUMBER, _USUAL, value)) if symbol else (value,), size)
-    board.write(sheet, value, (right, y), size=size, colour=board.theme.dim, anchor="right")
-    if symbol:
-        taken += board.type.width(symbol, size) + _GAP * size
-        board.write(sheet, symbol, (right - taken, y), size=size, colour=board.theme.dim)
-    room = right - begin - (taken + _GAP * size if told else 0.0)
-    board.write(sheet, board.fitting([*_shorter(words)], size, room), (begin, y), size=size)
-
-
-def _shorter(words: str) -> Iterator[str]:
-    """Yield a quantity's words, then with more and more of them abbreviated."""
-    yield words
-    for word, short in _ABBREVIATED.items():
-        if word in words:
-            words = words.replace(word, short)
-            yield words
-
-
-def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool]], size: int) -> None:
-    """Draw a box in each row, ticked or empty, all of them at once."""
-    line = max(0.09 * size, 1.0)
-    edge, inside = (box(wide, wide, 0.15 * size) for wide in (0.86 * size, 0.86 * size - 2 * line))
-    tick = size * np.array([-0.24 + 0.02j, -0.07 + 0.2j, 0.26 - 0.2j])
-    ticked, empty = (
-        [complex(1.6 * size, y + 0.55 * size) for y, is_ticked in rows if is_ticked is wanted]
-        for wanted in (True, False)
-    )
-    theme, ticks = board.theme, (stroke(at + tick, 0.14 * size) for at in ticked)
-    layers = [
-        Layer(theme.velocity, [at + edge for at in ticked]),
-        Layer(theme.panel, [loop for one in ticks for loop in one]),
-        Layer(theme.dim, [at + edge for at in empty]),
-        Layer(theme.panel, [at + inside for at in empty]),
-    ]
-    paint(sheet, [layer for layer in layers if layer.loops])
-
-
 # What lies over the picture: the help, the edit list, a toast, the marks of pause and recording.
 
 _VEIL = 170
@@ -506,18 +239,18 @@ class Panels:
     def draw(self, surface: pygame.Surface, overlay: Overlay) -> tuple[Target, ...]:
         """Draw what an overlay holds, and return where it can be clicked, what lies on top last."""
         self._marks(surface, overlay)
-        targets = [*self._list(surface, game_panel, answer_rows, overlay.game, overlay.shut)]
-        if overlay.help:
+        helped, listed, targets = overlay.help, overlay.listed, list[Target]()
+        if isinstance(listed, GamePanel):
+            targets += self._list(surface, (listed, overlay.pointed), overlay.shut)
+        if helped:
             surface.blit(self._keep(_veil, self.board.layout.size), (0, 0))
-        listed = self._list(surface, edit_list, edit_rows, overlay.panel, overlay.shut)
-        targets += listed
-        targets += self._list(surface, quantity_list, quantity_rows, overlay.quantities, overlay.shut)
-        if overlay.help:
-            left = self._width_at_left(self._keep(edit_list, overlay.panel)) if overlay.panel else 0
-            drawn, place = self._helped(overlay.help, left)
-            surface.blit(drawn, (place.x, place.y))
-            lines = self._keep(help_lines, (overlay.help, self.board.layout.size[0] - left))
-            targets += [Target("help", place), *(one.moved(place.x, place.y) for one in lines)]
+        if isinstance(listed, ListPanel):
+            targets += self._list(surface, (listed, overlay.pointed), overlay.shut)
+        if helped:
+            shown = (listed, overlay.pointed) if isinstance(listed, Panel) else None
+            targets += self._helped(
+                surface, helped, self._width_at_left(self._keep(_drawn, shown)) if shown else 0
+            )
         if said := words_at_foot(self.board, overlay):
             drawn, at = self._keep(foot, said)
             surface.blit(drawn, (round(at[0]), round(at[1])))
@@ -525,45 +258,34 @@ class Panels:
                 targets.append(Target("toast", Rect(*at, *drawn.get_size())))
         return tuple(targets)
 
-    def _helped(self, shown: Help, left: int) -> tuple[pygame.Surface, Rect]:
-        """Return the help and its place, right of a list that takes `left` pixels of the window's left."""
+    def _helped(self, surface: pygame.Surface, shown: Help, left: int) -> list[Target]:
+        """Draw the help, right of a list that takes `left` pixels of the window's left; return its places."""
         wide, whole = self.board.layout.size
-        drawn = self._keep(help_sheet, (shown, wide - left))
-        above = self.board.layout.above_bar
-        high = above if drawn.get_height() <= above else whole
-        at = left + (wide - left - drawn.get_width()) // 2, int(high - drawn.get_height()) // 2
-        return drawn, Rect(*at, *drawn.get_size())
+        drawn: DrawnSheet = self._keep(help_sheet, (shown, wide - left))
+        (broad, high), above = drawn.sheet.get_size(), self.board.layout.above_bar
+        top = int((above if high <= above else whole) - high) // 2
+        x = left + (wide - left - broad) // 2
+        surface.blit(drawn.sheet, (x, top))
+        return drawn.at(x, top)
 
-    def _list(
-        self, surface: pygame.Surface, make: Any, rows_of: Any, shown: Any, shut: float
-    ) -> Iterable[Target]:
-        """Draw a list, if one is open; return its places: of the list, its rows, its boxes, its scroll bar.
+    def _list(self, surface: pygame.Surface, shown: _Pointed, shut: float) -> list[Target]:
+        """Draw a list and the row under the mouse, and return its places.
 
         The share `shut` of it is beyond the left edge, or beyond the foot where it stands there; it is
         clicked where it goes.
         """
-        if shown is None:
-            return ()
-        drawn = self._keep(make, shown)
-        left, top = self._listed(drawn)
-        wide, high = drawn.get_size()
+        drawn: DrawnSheet = self._keep(_drawn, shown)
+        left, top = self._listed(drawn.sheet)
         if top <= self.board.margin:
-            surface.blit(drawn, (left - round(shut * (left + wide)), top))
+            surface.blit(drawn.sheet, (left - round(shut * (left + drawn.sheet.get_width())), top))
         else:
-            surface.blit(drawn, (left, top + round(shut * (surface.get_height() - top))))
-        targets = [] if make is game_panel else [Target("list", Rect(left, top, wide, high))]
-        for row, begin, end in self._keep(rows_of, shown):
-            targets.append(Target("row", Rect(left, top + begin, wide, end - begin), row))
-        if make is quantity_list:
-            track = scroll_track(self.board, shown)
-            targets += [Target("track", track, len(shown.rows)).moved(left, top)] if track else []
-            boxes = Rect(left, top, _BOX * self.board.layout.small_size, high)
-            targets += [Target("boxes", boxes)] if shown.boxes else []
-        return targets
+            surface.blit(drawn.sheet, (left, top + round(shut * (surface.get_height() - top))))
+        return drawn.at(left, top)
 
-    def _width_at_left(self, drawn: pygame.Surface) -> int:
+    def _width_at_left(self, drawn: DrawnSheet) -> int:
         """Return the width that a list takes at the window's top left."""
-        return self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
+        is_at_top = self._listed(drawn.sheet)[1] <= self.board.margin
+        return self.board.margin + drawn.sheet.get_width() if is_at_top else 0
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""
@@ -594,6 +316,15 @@ class Panels:
                 sheet = self._keep(_mark, (sign, words, colour), sign)
                 surface.blit(sheet, (round(right - sheet.get_width()), round(top)))
                 right -= sheet.get_width() + 0.6 * size
+
+
+_Pointed = tuple[ListPanel | GamePanel, int | None]
+"""A list, and its row under the mouse."""
+
+
+def _drawn(board: Board, shown: _Pointed) -> DrawnSheet:
+    listed, pointed = shown
+    return listed.drawn(board, pointed)
 
 
 def _veil(board: Board, size: tuple[int, int]) -> pygame.Surface:

@@ -71,7 +71,7 @@ class Grid(NamedTuple):
     room: Rect
     line: float
     text: int
-    shape: Shape
+    shape: ShelfRows
     track: Rect | None = None
 
     @property
@@ -127,12 +127,12 @@ class Grid(NamedTuple):
 
 def grid(size: tuple[int, int], browsing: Browsing) -> Grid:
     """Return where a shelf's mechanisms stand, scrolled so that the chosen one is visible."""
-    shape = Shape(size, browsing)
+    shape = ShelfRows(size, browsing)
     chosen = next((n for n, row in enumerate(shape.rows) if browsing.chosen in row), 0)
     return shape.showing(browsing.top, chosen)
 
 
-class Shape:
+class ShelfRows:
     """The sizes of things on a shelf, and which mechanisms are in each row."""
 
     def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:

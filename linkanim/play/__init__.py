@@ -19,9 +19,8 @@ describe
   words that lack it; the window has `Arcade.completed` fill them in and carries out "play" with the completed
   words, which the tape keeps. The effect "score" passes on a result to be kept. Both effects are left out
   when a tape is played.
-- A game shows a `picture.overlay.GamePanel` (heading, scores, lines, answers, bars, a verdict) in the room of
-a
-  list, and `Spot`s on the picture; curves are shown by `Overlay.path`.
+- A game shows a `picture.game_panel.GamePanel` (heading, scores, lines, answers, bars, a verdict) in the
+  room of a list, and `Spot`s on the picture; a curve is the `stroke` of the overlay.
 
 From the ground up; a module imports from those before it only:
 

@@ -22,9 +22,10 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.measures import output_slider
+from linkanim.picture.game_panel import Choice, GamePanel, ScoreBar
 from linkanim.picture.look import Look
 from linkanim.picture.marks import BEYOND
-from linkanim.picture.overlay import Choice, GamePanel, Lane, Overlay, ScoreBar
+from linkanim.picture.overlay import Lane, Overlay
 from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
@@ -330,7 +331,7 @@ class FollowRun(Game):
             large=counts,
             chosen=None if runs else self.level - 1,
         )
-        return replace(over, game=panel, lane=self._lane(state))
+        return replace(over, listed=panel, lane=self._lane(state))
 
     @property
     def _verdict(self) -> str:

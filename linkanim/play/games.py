@@ -14,8 +14,8 @@ from typing import Self, cast
 
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
+from linkanim.picture.game_panel import Choice
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Choice
 from linkanim.player.action import Action
 from linkanim.player.state import Game, State, with_effect
 from linkanim.scenes import chapters, names, titles

@@ -21,8 +21,9 @@ from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import Intake, Section, control_in, refuse_controls
+from linkanim.picture.game_panel import Choice, GamePanel, ScoreBar
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Choice, GamePanel, Overlay, ScoreBar
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Box
 from linkanim.play.games import GameWords, begun
@@ -471,7 +472,7 @@ class MatchGame(Game):
             hint="drag joints (Shift: tenths)   Space runs   ← → turn   Ctrl+Z   ↑ ↓ level   Esc out",
         )
         handles = () if self.gave_up else self.free
-        return replace(over, game=panel, stroke=level.curve, handles=handles)
+        return replace(over, listed=panel, stroke=level.curve, handles=handles)
 
     @property
     def _fixed(self) -> str:

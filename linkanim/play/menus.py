@@ -8,8 +8,9 @@ from typing import Any
 
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
+from linkanim.picture.game_panel import Choice, GamePanel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Choice, GamePanel, Overlay
+from linkanim.picture.overlay import Overlay
 from linkanim.play.games import (
     ALL,
     LEVELS,
@@ -93,7 +94,7 @@ class Menu(OverWhatRuns):
             hint="Enter begins   ↑ ↓ chapter   ← → level   Esc goes back",
             chosen=self._rows(state).index(self.chapter),
         )
-        return replace(over, game=panel)
+        return replace(over, listed=panel)
 
 
 def is_round(name: str) -> bool:
@@ -151,7 +152,7 @@ class Lobby(OverWhatRuns):
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the games."""
         hint = "Enter begins   ↑ ↓ choose   Esc goes back"
-        return replace(over, game=GamePanel("Play", choices=choices_of(OFFERS), hint=hint, chosen=self.row))
+        return replace(over, listed=GamePanel("Play", choices=choices_of(OFFERS), hint=hint, chosen=self.row))
 
 
 def read_lobby(words: GameWords) -> Lobby:
@@ -239,7 +240,7 @@ class Title(Game):
             large=True,
             chosen=self.door,
         )
-        return replace(over, game=panel)
+        return replace(over, listed=panel)
 
 
 def _through(state: State, door: int) -> State:

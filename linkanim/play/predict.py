@@ -10,8 +10,9 @@ from random import Random
 
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.picture.game_panel import Choice, GamePanel, Mood
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Choice, GamePanel, Mood, Overlay, Spot
+from linkanim.picture.overlay import Overlay, Spot
 from linkanim.play.games import ALL, LEVELS, GameWords, begun, members, titled
 from linkanim.play.kinds import of_level
 from linkanim.play.question import QuestionId, QuizQuestion
@@ -249,7 +250,7 @@ class Predict(Game):
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the question, or with the verdict on its answer."""
         if self.question is None:
-            return replace(over, game=self._end_panel())
+            return replace(over, listed=self._end_panel())
         question = self.question
         moods = tuple(self._mood(n) for n in range(len(question.answers)))
         answers = [*enumerate(zip(question.answers, moods, strict=True), 1)]
@@ -272,7 +273,7 @@ class Predict(Game):
             panel = self._verdict(panel, question)
         still = waits or state.phase == question.phase
         spots = tuple(Spot(f"{n}", one.place, mood) for n, (one, mood) in answers if one.place and still)
-        return replace(over, game=panel, spots=spots)
+        return replace(over, listed=panel, spots=spots)
 
     def _mood(self, n: int) -> Mood:
         assert self.question

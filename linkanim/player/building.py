@@ -20,8 +20,9 @@ from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, unnameable
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.figure import figure
+from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NEW, EditRow, Overlay, Panel
+from linkanim.picture.overlay import NEW, Overlay
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.view import Box
 from linkanim.player import rules
@@ -1109,10 +1110,10 @@ class SheetNumbers(Dimensions):
         """Return the overlay with the list of the linkage, or of the draft where nothing moves."""
         sheet = sheet_of(state)
         if sheet.building.made.listed is None:
-            return replace(over, panel=_panel_of_draft(sheet.building))
+            return replace(over, listed=_panel_of_draft(sheet.building))
         items = dimensions_of(in_unit(state.scene, state.look.unit))
         lines = () if sheet.rowed else tuple(measured(state, items))
-        return replace(over, panel=panel_of(state, items, lit=_has_row(state, items)), measured=lines)
+        return replace(over, listed=panel_of(state, items, lit=_has_row(state, items)), measured=lines)
 
     def menu(self, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
         """Choose what a right click is on, and list its commands; else list all."""

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache
 
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, filtered
 from linkanim.player.action import Action
 from linkanim.player.clock import FASTEST, SLOWEST
@@ -235,7 +236,8 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
 def _of_game(state: State, game: Game, usual: Mapping[Action, ListRow]) -> Iterator[ListRow]:
     """Yield what can be done in a game now: its answers or doors by their words, then other keys of use."""
     shown = game.shown(state, NOTHING_OVER)
-    for n, choice in enumerate(shown.game.choices if shown.game else ()):
+    choices = shown.listed.choices if isinstance(shown.listed, GamePanel) else ()
+    for n, choice in enumerate(choices):
         yield ListRow(choice.text or f"answer {n + 1}", choice.key, Action("option", n))
     for n, spot in enumerate(shown.spots):
         yield ListRow(f"the place {spot.key} on the picture", spot.key, Action("option", n))

@@ -13,7 +13,8 @@ from linkanim.build.tools import TOOLS
 from linkanim.errors import LinkanimError
 from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import Info
-from linkanim.picture.overlay import DimensionLine, EditRow, Overlay, Panel, ToolBar
+from linkanim.picture.lists import EditRow, Panel
+from linkanim.picture.overlay import DimensionLine, Overlay, ToolBar
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
@@ -674,7 +675,7 @@ class Dimensions(Mode):
         items = dimensions(in_unit(state.scene, state.look.unit))
         tools = ToolBar(_MOVES, over.hover.tool if over.hover else None, typed=True)
         lines = tuple(measured(state, items))
-        return replace(over, panel=panel_of(state, items, lit=True), tools=tools, measured=lines)
+        return replace(over, listed=panel_of(state, items, lit=True), tools=tools, measured=lines)
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Take a tool, or act on the list; None where the mouse acts as usual."""

@@ -11,7 +11,8 @@ from math import tau
 from typing import ClassVar
 
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import Overlay, searched
+from linkanim.picture.lists import Quantities
+from linkanim.picture.overlay import searched
 from linkanim.picture.quantities import driven_words, quantity
 from linkanim.player import rules
 from linkanim.player.action import Action
@@ -125,7 +126,5 @@ class Finder(Listing):
         "find": Rule(rules.nothing, _toggle, taped=False),
     }
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the field, in the place of any other list."""
-        overlay = super().shown(state, over)
-        return replace(overlay, quantities=overlay.quantities and replace(overlay.quantities, hint=_HINT))
+    def _rows(self, state: State) -> Quantities:
+        return replace(super()._rows(state), hint=_HINT)

@@ -197,7 +197,7 @@ def drawn_in(over: Overlay, state: State) -> Overlay:
     if state.listed or not any(listed):
         return replace(over, shut=1.0 - open_) if state.listed else over
     last = lasting(next(one.left for one in reversed(moves) if one.left.listed))
-    return replace(over, panel=last.panel, quantities=last.quantities, game=last.game, shut=1.0 - open_)
+    return replace(over, listed=last.listed, shut=1.0 - open_)
 
 
 # From one picture to the next: the old one fades while the new one is already there; the shutter's flash.

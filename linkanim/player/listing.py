@@ -12,7 +12,8 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity
-from linkanim.picture.overlay import Overlay, Quantities, filtered
+from linkanim.picture.lists import Quantities
+from linkanim.picture.overlay import Overlay, filtered
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
@@ -199,8 +200,7 @@ class Listing(Mode):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list, in the place of any other."""
-        bare = replace(over, panel=None, tools=None, game=None, spots=(), handles=())
-        return replace(bare, quantities=self._rows(state))
+        return replace(over, listed=self._rows(state), tools=None, spots=(), handles=())
 
     def _rows(self, state: State) -> Quantities:
         scene = state.displayed

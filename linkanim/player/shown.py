@@ -254,8 +254,7 @@ def overlay(
     lists = _lasting(state, over)
     return replace(
         lists,
-        panel=lists.panel and replace(lists.panel, pointed=row),
-        quantities=lists.quantities and replace(lists.quantities, pointed=row),
+        pointed=row if lists.listed else None,
         toast=_plain(lists.toast or (state.toast.text if state.toast else None)),
         chip=_chip(state),
         hint=_hint_bar(state),
@@ -266,7 +265,6 @@ def overlay(
         grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
         swing=_swing(state),
-        game=lists.game and replace(lists.game, pointed=row),
         bar=bar(state, button),
     )
 

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.lists import EditRow, Panel
+from linkanim.picture.overlay import Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
 from linkanim.player.keys import (
@@ -302,7 +303,7 @@ class TakeDialog(Mode):
         is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
         facts = () if is_whole or not self.folder else (f"in {self.folder}",)
         panel = Panel(shown, "Record and save", facts, error=self.refusal or None, hint=_HINT, counted=False)
-        return replace(over, panel=panel, tools=None, game=None, spots=(), handles=())
+        return replace(over, listed=panel, tools=None, spots=(), handles=())
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""

@@ -13,17 +13,16 @@ from pictures import inked, pixels
 
 from linkanim.picture.board import Board
 from linkanim.picture.layout import Docked, layout
+from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import (
     Button,
     CommandBar,
     DimensionLine,
-    EditRow,
     Fading,
     Overlay,
-    Panel,
 )
-from linkanim.picture.panels import edit_list, foot, words_at_foot
+from linkanim.picture.panels import foot, words_at_foot
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -148,7 +147,7 @@ def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
 def test_help_stands_beside_the_values_that_it_explains() -> None:
     scene, size = load("crank-rocker"), (1280, 720)
     painter, surface = Picture(scene, size, Look(), docked=Docked(listed=1)), offscreen(size)
-    edited = Overlay(panel=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes"))
+    edited = Overlay(listed=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes"))
     SurfacePrinter().paint(surface, painter, scene.pose(1.0), edited)
     plain = pixels(surface)
     lines = tuple((f"key {n}", "what it does, in a few words") for n in range(9))
@@ -171,13 +170,13 @@ def test_every_line_of_the_edit_list_has_a_place_of_its_own() -> None:
         EditRow("Coupler 3", "90 mm"),
         EditRow("Rocker 4", "80 mm"),
     ]
-    whole = edit_list(board, _list(rows))
+    whole = _list(rows).drawn(board).sheet
     others = [
         _list(rows, facts=("Grxxhof",)),
         *(_list([*rows[:n], replace(rows[n], value="77 mm"), *rows[n + 1 :]]) for n in range(3)),
         _list(rows, hint="Esc clxxes"),
     ]
-    bands = [_between(whole, edit_list(board, other)) for other in others]
+    bands = [_between(whole, other.drawn(board).sheet) for other in others]
     for above, below in pairwise(bands):
         assert above.bottom <= below.y
     assert all(0 < band.y < band.bottom < whole.get_height() for band in bands)
@@ -186,8 +185,8 @@ def test_every_line_of_the_edit_list_has_a_place_of_its_own() -> None:
 def test_a_bar_lies_behind_all_of_the_chosen_row() -> None:
     board = Board(layout(SIZE, docked=Docked(listed=1)), Type(), LIGHT)
     rows = [EditRow("Crank 2", "40 mm", chosen=True), EditRow("Coupler 3", "90 mm")]
-    one = edit_list(board, _list(rows))
-    words = _between(one, edit_list(board, _list([replace(rows[0], value="77 mm"), rows[1]])))
+    one = _list(rows).drawn(board).sheet
+    words = _between(one, _list([replace(rows[0], value="77 mm"), rows[1]]).drawn(board).sheet)
     bar = np.abs(pixels(one) - LIGHT.chosen).max(axis=-1) < 3
     lines, columns = np.nonzero(bar)
     assert lines.min() < words.y

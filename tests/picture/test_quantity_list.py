@@ -12,8 +12,7 @@ import pytest
 from linkanim.frozen import frozen
 from linkanim.picture.board import STEP, Board
 from linkanim.picture.layout import Docked, layout
-from linkanim.picture.overlay import Quantities
-from linkanim.picture.panels import quantity_list, quantity_rows
+from linkanim.picture.lists import Quantities
 from linkanim.picture.raster import Colour
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
@@ -50,7 +49,7 @@ def board() -> Noted:
 
 
 def test_rows_stand_line_by_line_below_the_title_and_the_hint_below_them(board: Noted) -> None:
-    sheet = quantity_list(board, Quantities(ROWS, 25, "", HINT))
+    sheet = Quantities(ROWS, 25, "", HINT).drawn(board).sheet
     size, lines = board.layout.small_size, board.lines
     shown = [words for words, _ in ROWS if words in lines]
     assert len(shown) >= 4
@@ -79,8 +78,9 @@ def test_rows_stand_line_by_line_below_the_title_and_the_hint_below_them(board: 
 
 def test_each_row_is_found_where_its_words_stand(board: Noted) -> None:
     shown = Quantities(ROWS, 25, "", HINT)
-    quantity_list(board, shown)
-    rows, half = quantity_rows(board, shown), 0.5 * board.layout.small_size
+    targets = (one for one in shown.drawn(board).targets if one.kind == "row")
+    rows = [(one.value, one.place.y, one.place.bottom) for one in targets]
+    half = 0.5 * board.layout.small_size
     written = [(n, board.lines[words].at[1]) for n, (words, _) in enumerate(ROWS) if words in board.lines]
     found = [next(row for row, begin, end in rows if begin <= y + half < end) for _, y in written]
     assert found == [n for n, _ in written]
@@ -89,7 +89,7 @@ def test_each_row_is_found_where_its_words_stand(board: Noted) -> None:
 
 
 def test_what_has_been_typed_stands_for_the_title_and_none_found_is_said(board: Noted) -> None:
-    sheet = quantity_list(board, Quantities((), 0, "rock", HINT))
+    sheet = Quantities((), 0, "rock", HINT).drawn(board).sheet
     size, lines = board.layout.small_size, board.lines
     assert (lines["rock_"].colour, "Quantities" in lines, lines["0"].anchor) == (
         LIGHT.velocity,
@@ -108,7 +108,7 @@ def test_words_too_long_lose_their_middle_and_never_their_symbol(board: Noted) -
     size = board.layout.small_size
     room = board.layout.lists.width - 2.4 * size
     rows = (("m" * 40, "θ = 1.5°"), ("w" * 40, "ω = −0.1 rad/s"), ("short", "α = 10 rad/s²"))
-    quantity_list(board, Quantities(rows, 0))
+    Quantities(rows, 0).drawn(board)
     for words, told in rows:
         symbol, _, value = told.partition(" = ")
         assert {symbol, value} <= {*board.lines}
@@ -131,7 +131,7 @@ STEADY = {
 def test_a_symbol_stays_while_its_value_changes(board: Noted, told: tuple[str, str]) -> None:
     symbol, places = told[0].partition(" = ")[0], set[tuple[float, float]]()
     for value in told:
-        quantity_list(board, Quantities((("Link 3: angular velocity", value),), 0))
+        Quantities((("Link 3: angular velocity", value),), 0).drawn(board)
         places.add(board.lines[symbol].at)
     assert len(places) == 1
 
@@ -145,7 +145,7 @@ ABBREVIATED = {
 
 def test_the_words_of_quantities_are_abbreviated_before_they_are_cut() -> None:
     board = Noted(layout((1280, 720), docked=Docked(listed=1)), Type(), LIGHT)
-    quantity_list(board, Quantities(tuple((words, "h′₂ = 0.1089 rad/rad²") for words in ABBREVIATED), 0))
+    Quantities(tuple((words, "h′₂ = 0.1089 rad/rad²") for words in ABBREVIATED), 0).drawn(board)
     assert {*ABBREVIATED.values()} <= {*board.lines}
 
 
@@ -153,7 +153,7 @@ def test_where_fewer_than_four_rows_would_be_left_the_hint_gives_way() -> None:
     told = set()
     for high in range(120, 360, 8):
         low = Noted(layout((640, high), docked=Docked(listed=1)), Type(), LIGHT)
-        sheet = quantity_list(low, Quantities(ROWS, 3, "", "Enter"))
+        sheet = Quantities(ROWS, 3, "", "Enter").drawn(low).sheet
         rows = sum(words in low.lines for words, _ in ROWS)
         assert rows >= 4 if "Enter" in low.lines else rows <= 4
         last = max(line.at[1] for line in low.lines.values())

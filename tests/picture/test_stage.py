@@ -18,8 +18,9 @@ from stage import SIZES, STILLS, Fault, looks, of_moving, of_still, still_look
 from linkanim.picture import labelled
 from linkanim.picture.frame_words import lines_of
 from linkanim.picture.layout import Docked
+from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -234,7 +235,7 @@ def test_a_list_covers_no_more_than_half_of_any_window_and_none_of_the_linkage(
     bare, told = offscreen(size), offscreen(size)
     rows = tuple(EditRow(f"Point {n} of its bar, to the left", "123.45 mm", n == 3) for n in range(30))
     hint = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
-    for surface, over in ((bare, Overlay()), (told, Overlay(panel=Panel(rows, hint=hint)))):
+    for surface, over in ((bare, Overlay()), (told, Overlay(listed=Panel(rows, hint=hint)))):
         SurfacePrinter().paint(surface, picture, scene.pose(1.0), over)
     assert _changed(bare, told)[1].max() <= lists.right + 1
     assert _changed(bare, told)[0].min() >= lists.y - 1

@@ -18,10 +18,12 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 from linkanim.errors import BadInput
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
+from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.items import Caption, Group, Halo, Target
 from linkanim.picture.layout import Docked
+from linkanim.picture.lists import EditRow, Panel, Quantities
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.shapes import hull
@@ -281,9 +283,9 @@ def test_a_scene_on_the_way_is_seen_in_the_view_of_the_one_it_becomes(crank: flo
         Overlay(recording="REC GIF 0:03"),
         Overlay(toast="saved crank-rocker.gif"),
         Overlay(help=(("play", (("Space", "play / pause"), ("← →", "step"))),)),
-        Overlay(quantities=Quantities((("Rocker: angle", "θ₄ (°)"),), 0, "rock", "Enter charts")),
-        Overlay(quantities=Quantities((), 0, "nothing")),
-        Overlay(panel=Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
+        Overlay(listed=Quantities((("Rocker: angle", "θ₄ (°)"),), 0, "rock", "Enter charts")),
+        Overlay(listed=Quantities((), 0, "nothing")),
+        Overlay(listed=Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
     ],
 )
 def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
@@ -327,7 +329,7 @@ def test_the_help_veils_a_game_s_panel() -> None:
     panels = []
     for shown in (None, (("play", (("Esc", "out of it"),)),)):
         surface = offscreen(size)
-        overlay = Overlay(game=GamePanel("Heading", lines=("A question?",)), help=shown)
+        overlay = Overlay(listed=GamePanel("Heading", lines=("A question?",)), help=shown)
         SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(1.0), overlay)
         panels.append(min(sum(surface.get_at((x, y))[:3]) for x in range(8, 120) for y in range(8, 30)))
     clear, veiled = panels  # the darkest of its words
@@ -349,7 +351,7 @@ def test_an_edit_list_stays_inside_the_window_and_shows_the_chosen_row_at_a_size
 ) -> None:
     scene, surface = load("crank-rocker"), offscreen(size)
     rows = tuple(EditRow(f"joints.A{n}.length", "55 mm", n == chosen) for n in range(count))
-    overlay = Overlay(panel=Panel(rows, error=LONG, hint=HINT))
+    overlay = Overlay(listed=Panel(rows, error=LONG, hint=HINT))
     SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(1.0), overlay)
     theme = theme_of("light")
     edge = [(x, y) for x in range(0, size[0] // 2, 7) for y in (0, size[1] - 1)]

@@ -14,6 +14,7 @@ import numpy as np
 import pygame
 import pytest
 from playing import SIZE, Player
+from shown_lists import game_in
 
 from linkanim.errors import BadInput
 from linkanim.picture.marks import lane
@@ -140,7 +141,7 @@ def test_the_arrow_keys_set_how_fast_the_crank_turns() -> None:
 def test_it_counts_three_two_one_before_the_paper_scrolls() -> None:
     state, seen = advance(on("follow scene=press"), [Action("next")]), []
     while game(state).stage == "counts":
-        panel = game(state).shown(state, Overlay()).game
+        panel = game_in(game(state).shown(state, Overlay()))
         assert panel
         seen.append(panel.heading)
         assert game(state).paper == 0
@@ -178,12 +179,12 @@ def test_a_run_replays_to_the_same_score_from_its_start_and_from_its_midst() -> 
 def test_a_run_that_is_over_is_compared_with_the_best(best: int, well: bool, words: str) -> None:
     state = on("follow scene=press")
     run = replace(game(state), stage="over", passed=1_500_999, outside=90, paper=1_600_000, best=best)
-    panel = run.shown(state, Overlay()).game
+    panel = game_in(run.shown(state, Overlay()))
     assert panel
     assert (panel.well, panel.verdict) == (well, words)
     assert [bar.words for bar in panel.bars] == ["1.50 m", "1.5 s"]
     assert run.level == 1
-    whole = replace(run, paper=1_000 * LENGTH).shown(state, Overlay()).game
+    whole = game_in(replace(run, paper=1_000 * LENGTH).shown(state, Overlay()))
     assert whole
     assert (whole.well, "to the end of the paper" in whole.verdict) == (True, True)
 
@@ -219,7 +220,7 @@ def test_the_manual_has_the_keys_of_the_panel() -> None:
     ]
     panel = on("follow scene=press stage=runs").game
     assert panel
-    shown = panel.shown(on("follow scene=press"), Overlay()).game
+    shown = game_in(panel.shown(on("follow scene=press"), Overlay()))
     assert shown
     assert all(words in shown.hint for words in ("← → slower, faster", "drag the crank pin", "Space stop"))
 

@@ -13,10 +13,12 @@ from random import Random
 import pygame
 import pytest
 from playing import SIZE, Player
+from shown_lists import game_in
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.picture.overlay import GamePanel, Overlay
+from linkanim.picture.game_panel import GamePanel
+from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.kinds import KINDS
@@ -77,7 +79,7 @@ def right_of(state: State) -> int:
 
 
 def panel_of(state: State) -> GamePanel:
-    panel = round_of(state).shown(state, Overlay()).game
+    panel = game_in(round_of(state).shown(state, Overlay()))
     assert panel
     return panel
 
@@ -181,7 +183,7 @@ def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player
 def test_a_round_can_be_about_the_mechanism_that_was_on() -> None:
     state = playing("menu")
     assert state.game
-    panel = state.game.shown(state, Overlay()).game
+    panel = game_in(state.game.shown(state, Overlay()))
     assert panel
     assert [choice.key for choice in panel.choices] == [f"{n}" for n in range(1, len(panel.choices) + 1)]
     state = carried(state, Action("raise", 1))  # from the first row to the last
@@ -233,7 +235,7 @@ def test_a_round_ends_with_the_best_score_and_what_was_missed() -> None:
         assert question
         asked.append(question)
         state = answered(state, well=len(asked) != 3)
-    panel = round_of(state).shown(state, Overlay()).game
+    panel = game_in(round_of(state).shown(state, Overlay()))
     assert panel
     text = " ".join(panel.lines)
     assert "The best is 5000 points." in text

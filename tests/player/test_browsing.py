@@ -9,6 +9,7 @@ from typing import Any
 import pygame
 import pytest
 from playing import SIZE, Player, fake_start, the
+from shown_lists import words_in
 
 from linkanim.picture.quantities import quantity
 from linkanim.picture.shelf import Grid
@@ -58,7 +59,7 @@ def test_every_row_of_k_has_symbol_value_and_unit(name: str) -> None:
     with screen.opened(SIZE):
         player = Player(begin(load(name)))
         player.type("k")
-        told = overlay(player.state).quantities
+        told = words_in(overlay(player.state))
         while told and told.chosen < len(told.rows) - 1:
             for words, text in told.rows[max(told.chosen - 9, 0) : told.chosen + 10]:
                 plain = words == "Mechanical advantage"  # a ratio without a unit
@@ -66,7 +67,7 @@ def test_every_row_of_k_has_symbol_value_and_unit(name: str) -> None:
                     r"\S.* = [−\d.,∞ ]+(×10[⁻⁰¹²³⁴-⁹]+)?" + ("" if plain else "(°|[a-zN/² ]+)"), text
                 ), words
             player.press(pygame.K_PAGEDOWN)
-            told = overlay(player.state).quantities
+            told = words_in(overlay(player.state))
         player.window.close()
 
 
@@ -88,7 +89,7 @@ def test_letters_filter_the_list(press: State, typed: str, found: str) -> None:
 
 
 def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
-    shown = overlay(after(press, "list", Action("filter", "cushion.f"))).quantities
+    shown = words_in(overlay(after(press, "list", Action("filter", "cushion.f"))))
     assert shown is not None
     known = quantity(press.scene, "cushion.force")
     ((words, value),) = shown.rows
@@ -490,7 +491,7 @@ def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
 def test_a_list_of_very_many_entries_is_filtered_once_for_its_letters(press: State) -> None:
     entries = Entries("Many", tuple(ListRow(f"s{n:05}", "", Action("note", "")) for n in range(50_000)))
     opened = press.with_mode(Listing(0, others=entries))
-    lists = [overlay(state).quantities for state in (opened, after(opened, Action("move", 3)))]
+    lists = [words_in(overlay(state)) for state in (opened, after(opened, Action("move", 3)))]
     assert [one and one.chosen for one in lists] == [0, 3]
     rows = [one and one.rows for one in lists]
     assert rows[0] is rows[1]  # no frame and no key looks at all of them again
@@ -508,7 +509,7 @@ def test_every_row_of_k_in_sight_has_its_value(size: tuple[int, int]) -> None:
         player.type("k")
         for _ in range(7):
             player.tick(20)
-            told = overlay(player.state).quantities
+            told = words_in(overlay(player.state))
             assert told
             found = (player.window.screen.row_at(60, y) for y in range(2, size[1], 4))
             seen = {row for row in found if row is not None and row >= 0}

@@ -9,6 +9,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import CTRL, SHIFT
+from shown_lists import values_in
 from test_build import WINDOW, Builder
 
 from linkanim.build.tools import TOOLS
@@ -128,7 +129,7 @@ def test_a_triad_runs_is_undone_saved_and_opened_again(hand: Hand, here: Path) -
 def test_a_number_of_a_triad_is_typed_in_the_list_of_dimensions(hand: Hand) -> None:
     hand.stephenson()
     hand.press(pygame.K_e)
-    panel = hand.window.screen.over.panel
+    panel = values_in(hand.window.screen.over)
     assert panel
     rows = ["".join(row.label) if not isinstance(row.label, str) else row.label for row in panel.rows]
     assert len(rows) > 6

@@ -11,6 +11,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import CTRL, SHIFT, Player
+from shown_lists import values_in, words_in
 
 from linkanim.play.games import game_of
 from linkanim.player import screen
@@ -49,7 +50,7 @@ class Sitting(Player):
 
     def words_of_list(self) -> dict[str, str]:
         """Return the rows of the open list as they are drawn: their words, and what stands beside them."""
-        shown = self.window.screen.over.quantities
+        shown = words_in(self.window.screen.over)
         assert shown
         return dict(shown.rows)
 
@@ -91,7 +92,7 @@ def test_a_lecturer_s_list_takes_at_most_twelve_gestures(sitting: Sitting) -> No
     one.word("60")
     one.key("Enter")
     assert one.state.scene.linkage.crank("A").length == 60
-    panel = one.window.screen.over.panel
+    panel = values_in(one.window.screen.over)
     assert panel
     assert panel.facts[0] == one.state.scene.info.class_name
     assert one.gestures <= 12

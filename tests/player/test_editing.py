@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
+from shown_lists import values_in
 
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
@@ -254,7 +255,7 @@ def test_values_begun_of_a_row_that_a_changed_file_has_no_longer_are_let_go_of(
 
 
 def test_the_list_says_what_the_lengths_make_of_the_linkage(crank: State) -> None:
-    shown = overlay(crank).panel
+    shown = values_in(overlay(crank))
     assert shown is not None
     assert shown.facts == ("Grashof crank-rocker", "s + l = 150 < p + q = 165")
     assert shown.flash == 0.0
@@ -264,7 +265,7 @@ def test_the_facts_light_up_when_the_class_changes_and_fade(crank: State) -> Non
     state = after(typed(crank, "66"), "take")
     flashes = []
     for _ in range(FLASH_FRAMES + 1):
-        shown = overlay(state).panel
+        shown = values_in(overlay(state))
         assert shown is not None
         flashes.append(shown.flash)
         state = advance(state)
@@ -280,7 +281,7 @@ def test_the_same_class_does_not_light_up(crank: State) -> None:
 
 def test_a_list_shows_what_is_typed_and_what_waits(crank: State) -> None:
     state = after(crank, Action("type", "9"), Action("pass_on", 1), Action("type", "8"))
-    shown = overlay(state).panel
+    shown = values_in(overlay(state))
     assert shown is not None
     assert [(row.value, row.draft) for row in shown.rows[:4]] == [
         ("100 mm", False),
@@ -293,7 +294,7 @@ def test_a_list_shows_what_is_typed_and_what_waits(crank: State) -> None:
 
 def test_a_list_shows_ten_digits() -> None:
     gears = typed(after(begin(load("epicyclic-hypocycloid")), "edit", Action("choose", 2)), "-1/3")
-    shown = overlay(gears).panel
+    shown = values_in(overlay(gears))
     assert shown is not None
     assert shown.rows[2].value == "−0.3333333333"
 

@@ -231,7 +231,7 @@ def test_all_of_the_help_is_there_in_a_small_window_too(
     drawn: list[str] = []
     monkeypatch.setattr(Type, "draw", lambda *words, **_: drawn.append(words[2]))
     board, groups = Board(layout((640, 360)), Type(), theme_of("light")), help_groups(KEYS_OF[mode])
-    sheet = help_sheet(board, (groups, room))
+    sheet = help_sheet(board, (groups, room)).sheet
     assert sheet.get_width() <= room
     assert sheet.get_height() <= 360
     for keys, does in (line for _, lines in groups for line in lines):

@@ -18,6 +18,7 @@ import numpy as np
 import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player, bar_cells_in
+from shown_lists import words_in
 
 from linkanim.build.tools import TOOLS
 from linkanim.picture.layout import tool_cells
@@ -95,8 +96,8 @@ class Pointing(Hand):
     def row(self, words: str) -> None:
         """Take the row of the open list that begins so, which is scrolled there if it has to be."""
         shown = self.player.window.screen
-        assert shown.over.quantities
-        rows_ = shown.over.quantities.rows
+        assert words_in(shown.over)
+        rows_ = words_in(shown.over).rows
         number = next(n for n, one in enumerate(rows_) if one[0].startswith(words))
 
         def rows() -> dict[int, float]:
@@ -118,8 +119,8 @@ class Pointing(Hand):
     def box(self, words: str) -> None:
         """Tick the box of a row of the open list."""
         shown = self.player.window.screen
-        assert shown.over.quantities
-        number = next(n for n, one in enumerate(shown.over.quantities.rows) if one[0] == words)
+        assert words_in(shown.over)
+        number = next(n for n, one in enumerate(words_in(shown.over).rows) if one[0] == words)
         x = next(float(x) for x in range(60, 2, -1) if shown.on_box(x) and shown.row_at(x, 100) is not None)
         self.drag((x, next(y + 3.0 for y in range(2, 718) if shown.row_at(x, y) == number)))
 

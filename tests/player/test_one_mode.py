@@ -9,6 +9,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import CTRL, SHIFT, Player
+from shown_lists import values_in
 
 from linkanim.build.tools import TOOLS
 from linkanim.picture.layout import tool_cells
@@ -43,7 +44,7 @@ class Editor(Player):
 
     def row(self, label: str) -> tuple[float, float]:
         """Return the middle of a row of the list, in pixels."""
-        panel = self.window.screen.over.panel
+        panel = values_in(self.window.screen.over)
         assert panel
         number = next(n for n, one in enumerate(panel.rows) if one.label == label)
         return next((60.0, y + 3.0) for y in range(720) if self.window.screen.row_at(60, y) == number)
@@ -137,7 +138,7 @@ def test_e_on_the_sheet_shows_the_list_and_puts_it_away(editor: Editor) -> None:
         editor.press(pygame.K_e, text="e")
         modes.append(editor.mode)
     assert modes == ["numbers", "build"]
-    panel = overlay(after(editor.state, "numbers")).panel
+    panel = values_in(overlay(after(editor.state, "numbers")))
     assert panel
     assert [row.label for row in panel.rows][:3] == ["Ground 1", "Crank 2", "Coupler 3"]
     assert panel.facts == ("Grashof crank-rocker", "s + l = 150 < p + q = 165")
@@ -167,7 +168,7 @@ def test_a_value_that_cannot_be_is_refused_on_the_sheet_as_it_is_without(editor:
     for state in (bare, after(bare, "build_on", "numbers")):
         state = after(state, Action("choose", 2 - state.editing.chosen), Action("type", "40"), "take")
         assert of_label(state, "Coupler 3") == 85
-        panel = overlay(state).panel
+        panel = values_in(overlay(state))
         assert panel
         told.append(panel.error)
         again = after(state, "take")
@@ -225,7 +226,7 @@ def test_what_has_no_row_in_the_list_is_typed_in_its_own(editor: Editor) -> None
     assert editor.sheet.building.draft.of("springs")["spring"]["stiffness"] == "400 N/m"
     editor.press(pygame.K_DOWN)
     editor.type("3")
-    panel = overlay(editor.state).panel
+    panel = values_in(overlay(editor.state))
     assert panel
     assert [row.value for row in panel.rows if row.chosen] == ["3_"]
 
@@ -238,7 +239,7 @@ def test_what_does_not_move_yet_has_all_its_numbers_in_the_list(editor: Editor) 
     editor.draw((30, 0), (60, 80))
     editor.press(pygame.K_e, text="e")
     assert editor.sheet.building.made.scene is None
-    panel = overlay(editor.state).panel
+    panel = values_in(overlay(editor.state))
     assert panel
     labels = [row.label for row in panel.rows]
     editor.drag(editor.row(next(one for one in labels if one.startswith("bar A") and "length" in one)))

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pygame
 import pytest
 from playing import Player, the
+from shown_lists import words_in
 
 from linkanim.player import screen as display
 from linkanim.player.action import Action
@@ -146,14 +147,14 @@ def test_a_quantity_is_charted_with_a_click(listed: Player) -> None:
     listed.press(pygame.K_ESCAPE)
     listed.press(pygame.K_k)
     listed.tick(12)
-    panel = overlay(listed.state).quantities
+    panel = words_in(overlay(listed.state))
     assert panel
     wheel(listed, row_place(listed, panel.chosen), -2)
     assert listed.state.of(Listing)
     assert the(listed.state, Listing).chosen == panel.chosen + 2
     chosen = the(listed.state, Listing).chosen
     listed.drag(row_place(listed, chosen))
-    assert not overlay(listed.state).quantities
+    assert not overlay(listed.state).listed
     assert listed.state.look.chart == list(listed.state.scene.telling)[chosen]
 
 
@@ -165,7 +166,7 @@ def test_boxes_chart_several_quantities_below_each_other_and_the_list_stays(list
         x, y = row_place(listed, row)
         listed.drag((x * 0.2, y))
     assert listed.state.look.chart == f"{telling[0]},{telling[1]}"
-    panel = overlay(listed.state).quantities
+    panel = words_in(overlay(listed.state))
     assert panel
     assert panel.boxes[:4] == (True, True, False, False)
     listed.press(pygame.K_RETURN, mod=pygame.KMOD_CTRL)  # the one that is chosen, off again

@@ -11,6 +11,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import CTRL, SHIFT, Player
+from shown_lists import values_in
 
 from linkanim.cli import main
 from linkanim.play.games import game_of
@@ -204,8 +205,8 @@ def test_what_is_not_ours_stays(player: Player, asked: Asked, here: Path, case: 
     player.press(pygame.K_RETURN)
     assert player.state.of(TakeDialog)
     assert words in dialog(player).refusal
-    assert player.window.screen.over.panel
-    assert player.window.screen.over.panel.error == dialog(player).refusal
+    assert values_in(player.window.screen.over)
+    assert values_in(player.window.screen.over).error == dialog(player).refusal
     assert (asked.commands, player.state.recording) == ([], None)
     assert {path: path.read_bytes() for path in here.rglob("*") if path.is_file()} == before
     player.type("-2")
@@ -300,9 +301,9 @@ def test_it_takes_the_place_of_what_is_open(player: Player, before: str) -> None
     player.window.state = advance(player.state, [Action("taking")])
     player.tick(2)
     over = player.window.screen.over
-    assert over.panel
-    assert over.panel.title == "Record and save"
-    assert (over.quantities, over.shelf, over.help) == (None, None, None)
+    assert values_in(over)
+    assert values_in(over).title == "Record and save"
+    assert (over.shelf, over.help) == (None, None)
     player.press(pygame.K_ESCAPE)
     assert player.state.mode == ("edit" if before == "edit" else "play")
 
@@ -312,7 +313,7 @@ def test_in_a_game_there_is_no_period(player: Player) -> None:
     player.press(pygame.K_F3)
     opened(player)
     assert values(player.state)["Length"] == "until it is stopped"
-    assert player.window.screen.over.game is None
+    assert values_in(player.window.screen.over).title == "Record and save"
     player.press(pygame.K_RETURN)
     assert (player.state.mode, player.state.recording is not None) == ("game", True)
     player.type("g")

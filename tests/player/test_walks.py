@@ -9,6 +9,7 @@ from typing import Any
 import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player, bar_cells_in, the
+from shown_lists import words_in
 
 from linkanim.export import json_text
 from linkanim.play.games import game_of
@@ -151,8 +152,8 @@ def test_every_command_is_reached_by_pointing_alone(player: Player) -> None:
     expected = wanted(player.state)
     open_list(player)
     shown = player.window.screen
-    assert shown.over.quantities
-    count = len(shown.over.quantities.rows)
+    assert words_in(shown.over)
+    count = len(words_in(shown.over).rows)
     found: dict[int, tuple[Action | None, ...]] = {}
     strip = next((x for x in range(300, 430, 2) if shown.scrolled_to(x, 300, held=False) is not None), None)
     while len(found) < count:

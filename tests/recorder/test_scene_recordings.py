@@ -13,6 +13,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 from reading import Pixels, about, durations, frames_of, loops_for_ever, video
+from shown_lists import values_in
 
 from linkanim.bench.command import CHART
 from linkanim.cli import main
@@ -320,7 +321,7 @@ def test_a_recording_shows_the_open_list_and_the_scene_beside_it() -> None:
     wanted = offscreen(size)
     picture = Picture(state.scene, size, state.look, docked=Docked(listed=1))
     over = replace(overlay(state), hint=None, chip=None, grip=False)
-    assert over.panel is not None
+    assert values_in(over) is not None
     SurfacePrinter().print(wanted, picture, phase, state.clock.speed, over)
     drawn = TapeFrames(done, 10, size).draw(9), pixel_view(wanted)
     frames = [np.frombuffer(one, np.uint8) for one in drawn]
