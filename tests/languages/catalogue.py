@@ -9,6 +9,7 @@ with "\\u0004" between.
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Iterator
 from datetime import UTC, datetime
@@ -65,6 +66,24 @@ def _of_tables() -> Iterator[Sentence]:
     for name, toggle in TOGGLES.items():
         for words in (toggle.title, *toggle.answers):
             yield Sentence(None, words, None, f"TOGGLES[{name!r}]")
+    for name in linkanim.names():
+        scene = linkanim.load(name)
+        for words in (scene.title, scene.look_at, scene.chapter):
+            yield Sentence(None, words, None, f"scene {name}")
+        struts = (strut.name for strut in (*scene.linkage.springs, *scene.linkage.dampers))
+        for words in (*scene.info.link_names.values(), *struts, *_USUAL):
+            if _NAME.fullmatch(words):
+                yield Sentence("name", words, None, f"scene {name}")
+
+
+_NAME = re.compile(r"[a-z]{3,}( [a-z]+)*\d?")
+"""A name that is a word: no letter of a joint, no number."""
+_USUAL = (
+    *(f"{nth} {noun}" for nth in ("second", "third", "4th") for noun in ("coupler", "rocker", "crank")),
+    *("second driven crank", "third driven crank", "second input rocker"),
+    *("crank", "coupler", "rocker", "rod", "slider", "spring", "damper", "cylinder", "ground"),
+    *("upper", "lower", "left", "right", "large", "small", "short", "upright", "driven link", "input"),
+)
 
 
 def path_of(language: str, suffix: str) -> Path:
