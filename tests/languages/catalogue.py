@@ -70,7 +70,7 @@ def _of_tables() -> Iterator[Sentence]:
         scene = linkanim.load(name)
         for words in (scene.title, scene.look_at, scene.chapter):
             yield Sentence(None, words, None, f"scene {name}")
-        struts = (strut.name for strut in (*scene.linkage.springs, *scene.linkage.dampers))
+        struts = [one.name for one in scene.linkage.springs] + [one.name for one in scene.linkage.dampers]
         for words in (*scene.info.link_names.values(), *struts, *_USUAL):
             if _NAME.fullmatch(words):
                 yield Sentence("name", words, None, f"scene {name}")
