@@ -72,7 +72,9 @@ def cleaned(value: Any, rounding: Any) -> Any:
     if isinstance(value, float) and isinstance(rounding, float):
         size = abs(value)
         return 0.0 if size <= rounding else math.inf if size == math.inf else value
-    return np.where(np.abs(value) <= rounding, 0.0, np.where(np.isinf(value), np.inf, value))[()]
+    told = np.where(np.abs(value) <= rounding, 0.0, value)
+    np.copyto(told, np.inf, where=told == -np.inf)
+    return told[()]
 
 
 def as_output(motion: Any, value: Any, unit: str, order: int) -> Any:

@@ -107,12 +107,9 @@ def arrays(layout: ResultPlaces, results: Array, shape: tuple[int, ...], kind: s
     places, vectors = layout.places[kind], layout.vectors
     if kind not in VECTORS:
         return {name: results[2 * vectors + place].reshape(shape) for name, place in places.items()}
-    pairs = (
-        results[: 2 * vectors]
-        .reshape(vectors, 2, results.shape[1])
-        .transpose(0, 2, 1)
-        .reshape(vectors, *shape, 2)
-    )
+    pairs = results[: 2 * vectors].reshape(vectors, 2, results.shape[1]).transpose(0, 2, 1)
+    if len(shape) != 1:
+        pairs = pairs.reshape(vectors, *shape, 2)
     still = (*[0] * len(shape), 8)
     return {
         name: pairs[place] if isinstance(place, int) else np.ndarray((*shape, 2), np.float64, place, 0, still)

@@ -25,7 +25,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any
 
 import numpy as np
@@ -715,8 +715,9 @@ def _reactions(motion: Any) -> Reactions:
     ends = np.asarray(near_ends(motion)) if motion.acceleration else np.asarray(False)
     free = np.broadcast_to(idle(motion, ends) | balance.idle, unknowns[0].shape)
     if np.any(free):
-        for value, known in zip(unknowns, beside(motion, free, _stacked), strict=True):
-            value[free] = known
+        unknowns = [np.array(row) for row in unknowns]
+        for row, known in zip(unknowns, beside(motion, free, _stacked), strict=True):
+            row[free] = known
     return _told(balance, unknowns)
 
 
@@ -725,13 +726,13 @@ def _stacked(motion: Any) -> Array:
 
 
 def _listed(balance: _Balance) -> list[Array]:
-    """Return all numbers that are told, as computed: an array of each."""
+    """Return all numbers that are told, as computed: an array of each, to be read."""
     told = [part for forces in balance.joints.values() for force in forces.values() for part in force]
     told += [part for guide in balance.guides.values() for part in guide]
     told += [part for gear in balance.gears.values() for part in gear if part is not None]
     told += [*balance.shaking, balance.effort]
     shape = np.shape(balance.motion.phase)
-    return [np.array(np.broadcast_to(part, shape)) for part in told]
+    return [np.broadcast_to(part, shape) for part in told]
 
 
 def _reach(linkage: Linkage) -> float:
@@ -742,14 +743,18 @@ def _reach(linkage: Linkage) -> float:
 def _told(balance: _Balance, unknowns: list[Array]) -> Reactions:
     """Return the numbers in their places: 0 for rounding errors, infinite where they are unbounded."""
     linkage, metre, phase = balance.linkage, balance.linkage.metre, np.asarray(balance.motion.phase)
-    sizes = np.abs(unknowns)
-    largest = np.where(np.isfinite(sizes), sizes, 0.0).max(axis=0)
+    nowhere = np.isnan(phase) | balance.nowhere
+    # row by row: a temporary array of all rows would be fresh memory at every call
+    largest = reduce(np.maximum, map(np.abs, unknowns))
+    whole = bool((np.isfinite(largest) & ~nowhere).all())
+    if not whole:
+        largest = reduce(np.maximum, (np.where(np.isfinite(row), np.abs(row), 0.0) for row in unknowns))
     own = np.where(np.isfinite(balance.noise), balance.noise, 0.0)
     noise = np.maximum(own, ROUNDING * largest)
-    nowhere = np.isnan(phase) | balance.nowhere
 
     def told(number: Any, least: Any) -> Any:
-        number = np.where(nowhere, np.nan, np.where(np.isnan(number), np.inf, number))
+        if not whole:
+            number = np.where(nowhere, np.nan, np.where(np.isnan(number), np.inf, number))
         value = cleaned(number, least)
         return value if np.ndim(value) else float(value)
 

@@ -333,8 +333,11 @@ class Scene:
         """Raise BadInput for phases or angles (rad) so large that a pose would not have all its digits."""
         flat, most = places.ravel(), self._most**2
         # sums of squares take least time; of more numbers at once they would wait for threads of their own
-        parts = (flat[first : first + 8192] for first in range(0, flat.size, 8192))
-        if all(part.dot(part) <= most for part in parts):
+        for first in range(0, flat.size, 8192):
+            part = flat[first : first + 8192]
+            if not part.dot(part) <= most:
+                break
+        else:
             return
         size = max(float(flat.max()), -float(flat.min()))
         if size > self._most:
