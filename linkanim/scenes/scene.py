@@ -88,7 +88,7 @@ class BodyStyle(NamedTuple):
 
 
 FREE_STYLE = BodyStyle()
-_MADE_ANEW = frozenset({"quantities", "_lengths", "_forms"})
+_MADE_ANEW = frozenset({"quantities as said", "_lengths", "_forms"})
 """What a scene knows that holds functions, and goes through no pickle."""
 
 
