@@ -23,7 +23,7 @@ from collections.abc import Sequence
 
 from linkanim.cli.exits import guarded
 
-SPARED = 50_000
+SPARED = 100_000
 """New objects, less those freed, between two garbage collections: at the start nearly all of them stay."""
 
 

@@ -1006,9 +1006,7 @@ def _are_alike(one: tuple[float, float], other: tuple[float, float]) -> bool:
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
     assembly, fare = _assembled(linkage)
-    whole = Mechanism(linkage, limits.restricted(assembly, linkage, fare) if fare else assembly)
-    whole.trace(Variant(True, False))  # which a pose needs, and says what is not one rigid body
-    return whole
+    return Mechanism(linkage, limits.restricted(assembly, linkage, fare) if fare else assembly)
 
 
 def transient(linkage: Linkage) -> Mechanism:

@@ -84,7 +84,8 @@ def _put(found: Any, path: Path, leaf: Leaf) -> None:
 
 def _leaf(found: Any, motion: Motion) -> Leaf:
     """Return a value at every instant (N,), NaN for one that is not known (None)."""
-    return np.broadcast_to(np.asarray(np.nan if found is None else found, np.float64), np.shape(motion.phase))
+    leaf, shape = np.asarray(np.nan if found is None else found, np.float64), motion.phase.shape
+    return leaf if leaf.shape == shape else np.broadcast_to(leaf, shape)
 
 
 def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:

@@ -14,7 +14,7 @@ from linkanim.mechanics.arithmetic import Constant, Graph, MovingPoint, Slope, V
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import batch
-from linkanim.mechanics.solver.closing import CLOSERS, Assembly, walk_at
+from linkanim.mechanics.solver.closing import CLOSERS, Assembly, refuse_loose, walk_at
 from linkanim.mechanics.solver.courses import followed_course
 from linkanim.mechanics.solver.input import InputPath, Swing, Turn
 from linkanim.mechanics.solver.loop import Gearing, Loop, arcs_of, gearings, open_arcs
@@ -25,6 +25,7 @@ from linkanim.mechanics.tolerances import JUST_AFTER, OWN_LIMIT
 
 def assemble(linkage: Linkage) -> Assembly:
     """Return the linkage put together as it asks, seen from its origin; AssemblyError where it cannot be."""
+    refuse_loose(linkage)
     linkage = linkage.near
     scale = _scale(linkage)
     scaled = linkage if scale == 1.0 else linkage.scaled(scale)

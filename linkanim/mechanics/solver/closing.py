@@ -554,7 +554,7 @@ class Walk:
     def bodies(self) -> dict[str, Slope]:
         """How each named body turns."""
         turning = (body for body in self.linkage.bodies if body.slider is None)
-        return {body.name: self.turning_of(body.joints, f"body {body.name}") for body in turning}
+        return {body.name: self.turning_of(body.joints) for body in turning}
 
     @property
     def centres(self) -> dict[str, MovingPoint]:
@@ -657,7 +657,7 @@ class Walk:
 
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
-        n = self._body_of(on, f"joint {name}" if name else "centre of mass")
+        n = holding(self.linkage.rigid_bodies, on) or 0
         piece, length = self.pieces[n], self._length(n, on)
         arm = self._arm(piece, *on).times(Vec(at[0] / length, at[1] / length))
         if name is not None:
@@ -666,7 +666,7 @@ class Walk:
 
     def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
         """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
-        n = self._body_of(on, "line of travel")
+        n = holding(self.linkage.rigid_bodies, on) or 0
         return self._arm(self.pieces[n], *on).scaled(1.0 / self._length(n, on)), self.pieces[n].turning
 
     def _length(self, n: int, ends: tuple[str, str]) -> Value:
@@ -687,15 +687,29 @@ class Walk:
             return -piece.arms[end, start]
         return self.points[end].position - self.points[start].position
 
-    def turning_of(self, names: tuple[str, ...], owner: str) -> Slope:
-        """Return how the rigid body turns that has all these joints; AssemblyError where none has."""
-        return self.pieces[self._body_of(names, owner)].turning
+    def turning_of(self, names: tuple[str, ...]) -> Slope:
+        """Return how the rigid body turns that has all these joints."""
+        return self.pieces[holding(self.linkage.rigid_bodies, names) or 0].turning
 
-    def _body_of(self, names: tuple[str, ...], owner: str) -> int:
-        n = holding(self.linkage.rigid_bodies, names)
-        if n is None:
+
+def refuse_loose(linkage: Linkage) -> None:
+    """Raise AssemblyError where what needs a rigid body names joints of none."""
+    for owner, names in _rested_on(linkage):
+        if holding(linkage.rigid_bodies, names) is None:
             raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
-        return n
+
+
+def _rested_on(linkage: Linkage) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield what needs a rigid body, and the joints of it that are named."""
+    for joint in linkage.joints:
+        if isinstance(joint, Rigid):
+            yield f"joint {joint.name}", joint.on
+        for slide in joint.slides:
+            if slide.axis:
+                yield "line of travel", slide.axis
+    for body in linkage.bodies:
+        if body.slider is None:
+            yield f"body {body.name}", body.joints
 
 
 @frozen
