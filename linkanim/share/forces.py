@@ -14,6 +14,7 @@ from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import unbounded_places
 from linkanim.share.movers import Mover, Pairs, packed, shares_of
 from linkanim.share.tables import table
+from linkanim.words import said
 
 _NEAR = 5e-4
 """The share of a force's greatest value by which its table may be off."""
@@ -49,8 +50,9 @@ def forces(light: Picture, dark: Picture, speed: float, pairs: Pairs) -> Mover |
     steps = ways / top[:, None, None] * _STEPS
     alike = np.allclose(ways[0], ways[1], rtol=0.0, atol=_NEAR, equal_nan=True)
     starts = [one.place for one in pulls(scene.pose(0.0))]
+    words = said(arrows.words)
     shown = {
-        "words": f"{arrows.words} as at rest" if scene.linkage.static else arrows.words,
+        "words": said("{arrows} as at rest", arrows=words) if scene.linkage.static else words,
         "unit": arrows.unit,
         "per": arrows.scale(speed),
         "line": arrows.gauge.line,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.quantities import Quantity
 from linkanim.scenes.scene import Scene
-from linkanim.share.movers import centre
+from linkanim.share.movers import centre, link_words
 
 Law = dict[str, Any]
 """`of` is "point", "turn", "span" or "travel", of the joints `at`, by the `order` of derivatives."""
@@ -46,7 +46,7 @@ def law_of(scene: Scene, quantity: Quantity) -> Law | None:
 
 def parts_of(scene: Scene, quantity: Quantity) -> list[str]:
     """Return what of a picture a quantity is of, as the page's script calls it: "v B", "l crank"."""
-    linkage, links = scene.linkage, scene.info.link_names
+    linkage, links = scene.linkage, link_words(scene)
     name, *kinds = quantity.token.split(".")
     if strut := next((one for one in linkage.springs + linkage.dampers if one.name == name), None):
         return [f"s {' '.join(strut.between)}"]

@@ -1,6 +1,6 @@
 // Other lengths: sliders for them, and the motion of the linkage as it is solved anew.
 "use strict";
-const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
+const lengthsOf = (model, { view, say, said, short, state, byId, renewed }) => {
   const TURN = 2 * Math.PI, BESIDE = 1e-4;
   const solver = solverOf(model), first = model.values.slice();
   const [scale, left, top] = view;
@@ -60,8 +60,10 @@ const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
   const degrees = (angle) => `${(angle * 180 / Math.PI).toFixed(1).replace("-", "−")}°`;
   function told() {
     const found = solver.grashof(), relation = found && [">", "=", "<"][found.sign + 1];
-    const sums = found ? `${found.name}: s + l = ${short(found.sums[0])} ${relation} p + q = ${short(found.sums[1])}. ` : "";
-    return `${sums}${range ? `The input swings between ${degrees(range.low)} and ${degrees(range.high)}.` : "The input turns fully."}`;
+    const moves = range ? said("The input swings between {low} and {high}.", { low: degrees(range.low), high: degrees(range.high) }) : said("The input turns fully.");
+    if (!found) return moves;
+    const sums = `s + l = ${short(found.sums[0])} ${relation} p + q = ${short(found.sums[1])}`;
+    return said("{class_name}: {sums}. {moves}", { class_name: found.name, sums, moves });
   }
 
   function inputWords(phase) {
@@ -72,8 +74,8 @@ const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
   // Returns the input's speed in words: as given where it turns, else how often it goes there and back.
   function speedWords(speed, words) {
     const each = Math.abs(speed) * 30 / Math.PI;
-    if (range) return `${short(each)} swings/min`;
-    return words.endsWith("/min") ? `${short(speed * 30 / Math.PI)} rpm` : words;
+    if (range) return said("{count} swings/min", { count: short(each) });
+    return words.endsWith("rpm") ? words : `${short(speed * 30 / Math.PI)} rpm`;
   }
 
   function renew() {
@@ -83,7 +85,7 @@ const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
     if (state.side && turned) base[turned.name] = -1;
     const found = solver.range(base);
     if (found === undefined) {
-      byId("made").textContent = "With these lengths the linkage closes at no angle of the input.";
+      byId("made").textContent = said("With these lengths the linkage closes at no angle of the input.");
       return false;
     }
     range = found;

@@ -8,6 +8,7 @@ from typing import Any
 from linkanim.mechanics.analysis import GRASHOF, TRIPLE_ROCKERS, four_bar_of
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Crank, Joint, Pin, Rigid
 from linkanim.scenes.scene import Scene
+from linkanim.words import said
 
 LINKS = ("ground", "input", "coupler", "output")
 _JUST_AFTER = 1e-3
@@ -49,9 +50,9 @@ def model(scene: Scene) -> dict[str, Any] | None:
         "stated": linkage.drive.stated_start,
         "level": _level(scene),
         "classes": {
-            "grashof": [GRASHOF[part] for part in LINKS],
-            "rockers": [TRIPLE_ROCKERS[part] for part in LINKS],
-            "change": "change-point",
+            "grashof": [said("Grashof {kind}", kind=said(GRASHOF[part])) for part in LINKS],
+            "rockers": [said("triple-rocker ({kind})", kind=said(TRIPLE_ROCKERS[part])) for part in LINKS],
+            "change": [said("change-point {kind}", kind=said(GRASHOF[part])) for part in LINKS],
         },
         "fourBar": found.four_bar(bar.joint) if bar and single else None,
     }
@@ -107,7 +108,7 @@ class _Model:
                     "side": self._side(joint),
                 }
             case RRP() if joint.line.on is None:
-                offset = self._aside(joint, "offset of its line", joint.line.offset)
+                offset = self._aside(joint, said("offset of its line"), joint.line.offset)
                 return {
                     "name": joint.name,
                     "kind": "slider",
@@ -119,7 +120,7 @@ class _Model:
                     "side": joint.side,
                 }
             case RPR():
-                offset = self._aside(joint, "offset of its slot", joint.offset)
+                offset = self._aside(joint, said("offset of its slot"), joint.offset)
                 return {
                     "name": joint.name,
                     "kind": "slot",
@@ -130,7 +131,7 @@ class _Model:
                 }
             case RPP() if joint.line.on is None:
                 offset, angle = (
-                    self._aside(joint, "offset of its line", joint.line.offset),
+                    self._aside(joint, said("offset of its line"), joint.line.offset),
                     joint.line.angle,
                 )
                 return {
@@ -143,10 +144,10 @@ class _Model:
                     "offset": offset,
                 }
             case Rigid():
-                first = f"along {'–'.join(joint.on)}"
+                first = said("along {first}–{second}", first=joint.on[0], second=joint.on[1])
                 numbers = [
                     self._aside(joint, first, joint.at[0]),
-                    self._aside(joint, "to its left", joint.at[1]),
+                    self._aside(joint, said("to its left"), joint.at[1]),
                 ]
                 return {"name": joint.name, "kind": "point", "on": joint.on, "r": numbers}
         return None
@@ -186,7 +187,7 @@ class _Model:
 
     def _aside(self, joint: Joint, label: str, value: float) -> int:
         reach = _ASIDE * self._longest
-        label = f"{joint.name}: {label}"
+        label = said("{part}: {measure}", part=joint.name, measure=label)
         ends = min(-reach, value - reach), max(reach, value + reach)
         return self._number(label, (joint.name,), value, ends)
 

@@ -56,6 +56,7 @@ from linkanim.picture.shapes import Part, Places, Stamp, units
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
+from linkanim.words import name_said, said
 
 _LIT: tuple[Colour, Colour] = (217, 72, 15), (255, 146, 43)
 """The colour of what is pointed at, in both themes."""
@@ -198,6 +199,11 @@ Whole = NDArray[np.int64]
 def begin_of(scene: Scene) -> float:
     """Return the phase at which tracks begin."""
     return scene.mechanism.way[0] if scene.mechanism.way else 0.0
+
+
+def link_words(scene: Scene) -> dict[str, str]:
+    """Return what each body is called by what it does, in the language that is spoken, by its own name."""
+    return {name: name_said(word) for name, word in scene.info.link_names.items()}
 
 
 def centre(body: str) -> str:
@@ -430,7 +436,7 @@ class Mobile:
         described = self.pairs.outlined if light.sized else self.pairs.elements
         shapes = described(light.layers, dark.layers)
         mover = {"kind": "part", "at": light.at, "tail": light.tail, "head": light.head, **self._form(light)}
-        link = self.light.scene.info.link_names.get(light.name)
+        link = link_words(self.light.scene).get(light.name)
         mover |= {"link": link} if link else {}
         turn, at = light.turn(self._places), self._places[light.at]
         matrix = (turn.real, turn.imag, -turn.imag, turn.real, at.real, at.imag)
@@ -557,7 +563,7 @@ class Mobile:
         usual = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
         feet = [*usual, *(name for name in self.light.figure.moving if name not in usual)]
         size = {"longest": light.longest, "drawn": light.longest_drawn, "line": light.gauge.line}
-        said = {"colours": colours, "words": light.words, "unit": light.unit}
+        known = {"colours": colours, "words": said(light.words), "unit": light.unit}
         return {
             "kind": "arrows",
             "order": order,
@@ -565,7 +571,7 @@ class Mobile:
             "usual": len(usual),
             "gain": gain,
             **size,
-            **said,
+            **known,
         }
 
 

@@ -10,6 +10,8 @@
   const TURN = 2 * Math.PI;
   page.period = TURN * Math.round(page.period / TURN);  // with all its digits
 
+  // a sentence in the page's language, with its parts in their places
+  const said = (text, parts = {}) => (page.said[text] ?? text).replace(/\{(\w+)\}/g, (_, name) => parts[name]);
   const minus = (text) => text.replaceAll("-", "−");
   const short = (x) => minus(String(Number(x.toPrecision(4))));
 
@@ -431,7 +433,7 @@
   function layKey() {
     byId("key").replaceChildren();
     const side = now();
-    if (state.force && own?.on) byId("key").appendChild(document.createElement("em")).textContent = "Forces are known for the page’s own lengths alone.";
+    if (state.force && own?.on) byId("key").appendChild(document.createElement("em")).textContent = said("Forces are known for the page’s own lengths alone.");
     for (const mover of side.data.movers.filter((one) => one.kind === "arrows" && arrowsOf(one).shown)) {
       const { order, gain, line: thick, colours, words: named, unit: of } = mover;
       const scale = order ? gain * side.data.view[0] / Math.abs(speed()) ** order : mover.per, most = KEY / (zoom * scale);
@@ -485,7 +487,7 @@
   const now = () => sides[state.side];
   const lengthRows = () => own ? own.rows : [];
   const own = page.model && lengthsOf(page.model, {
-    view: page.sides[0].view, say, short, state, byId, renewed: () => lay(),
+    view: page.sides[0].view, say, said, short, state, byId, renewed: () => lay(),
   });
   // The tracks of what is shown: of the page's own linkage, or of other lengths.
   const tracksNow = () => own?.on ? own.tracks : now().tracks;
@@ -523,7 +525,7 @@
     side.box = [[0, wide], [0, high]];
     side.poses = changed ? changed.after : side.before;
     byId("about").classList.toggle("changed", Boolean(changed));
-    byId("about").textContent = changed ? `With other lengths: ${own.told()}` : about;
+    byId("about").textContent = changed ? said("With other lengths: {found}", { found: own.told() }) : about;
     side.beyond = changed ? changed.after.flatMap((of) => [...of.values()]) : [];
     if (changed) side.data.movers.forEach((mover, n) => { side.beyond.push(...wheeled(mover, side.groups[n], changed)); });
     chart.classList.toggle("off", !side.charts.length || !state.curves);
@@ -740,7 +742,7 @@
     const high = Math.min(tall, 0.62 * wide) - 62, top = (tall - high - 62) / 2 + 24, [low, up] = data.y, sign = data.unit === "°" ? "°" : "";
     if (data.unknown) {
       words(data.titles[0], 8, 2, "start");
-      note("It is known for the page’s own lengths alone.", 8, 34, "start", {});
+      note(said("It is known for the page’s own lengths alone."), 8, 34, "start", {});
       return;
     }
     let most = clamp(Math.round(high / 24), 2, 6), levels = ticksOf(low, up, most, sign);
@@ -841,7 +843,7 @@
         const { link, tail, head } = pointer.mover || {};
         if (link) {
           const [angle, turning] = turningOf({ tail, head }, pose), long = size(sub(pose(head).p, pose(tail).p).map(clear));
-          text = `${link}: ω = ${short(turning)} rad/s\n${short(long / view[0])} ${page.unit} at ${short(angle)}°`;
+          text = `${link}: ω = ${short(turning)} rad/s\n${said("{length} at {angle}", { length: `${short(long / view[0])} ${page.unit}`, angle: `${short(angle)}°` })}`;
         }
       }
     }
@@ -865,16 +867,16 @@
       })])));
     };
     cells = [];
-    put("points", ["point", `position (${of})`, `velocity (${of}/s)`, `acceleration (${of}/s²)`], [...tracksNow().keys()].map((name) => ({
-      name: escaped(name), keys: [`j ${name}`, `j ${name}`, `v ${name}`, `a ${name}`],
+    put("points", [said("point"), `${said("position")} (${of})`, `${said("velocity")} (${of}/s)`, `${said("acceleration")} (${of}/s²)`], [...tracksNow().keys()].map((name) => ({
+      name: escaped(page.called[name] ?? name), keys: [`j ${name}`, `j ${name}`, `v ${name}`, `a ${name}`],
       tells: [(pose) => couple(inUnits(pose(name), view).place), (pose) => rates(inUnits(pose(name), view).velocity), (pose) => rates(inUnits(pose(name), view).acceleration)],
     })));
     const links = new Map(movers.filter(({ link, tail, head }) => link && tail !== head).map((mover) => [mover.link, mover]));
-    put("links", ["link", "angle (°)", "ω (rad/s)", "α (rad/s²)"], [...links].map(([name, mover]) => ({
+    put("links", [said("link"), `${said("angle")} (°)`, "ω (rad/s)", "α (rad/s²)"], [...links].map(([name, mover]) => ({
       name: escaped(name), keys: [`l ${name}`], tells: [0, 1, 2].map((order) => (pose) => short(turningOf(mover, pose)[order])),
     })));
     const [pulls] = own?.on ? [] : movers.filter(({ kind, order }) => kind === "arrows" && !order);
-    put("forces", ["force", "x, y (N)", "size (N)"], (pulls?.symbols || []).map((symbol, n) => {
+    put("forces", [said("force"), "x, y (N)", `${said("size")} (N)`], (pulls?.symbols || []).map((symbol, n) => {
       const step = 10 ** (Math.floor(Math.log10(pulls.grain[n] * 32000)) - 2), digits = Math.max(0, -Math.log10(step));
       const told = (x) => Number.isFinite(x) ? minus((Math.round(x / step) * step + 0).toFixed(digits).replace(/^-(0\.?0*)$/, "$1")) : "∞";
       const force = () => pulled(pulls, n, state.phase), slight = (f) => size(f) > 0 && size(f) < step / 2;
@@ -926,7 +928,7 @@
   const pause = () => play(false);
   function play(on) {
     state.playing = on;
-    byId("play").textContent = on ? "Pause" : "Play";
+    byId("play").textContent = on ? said("Pause") : said("Play");
     wake();
   }
   function step(times) {
@@ -991,7 +993,7 @@
     state.side = mod(number, sides.length);
     own?.renew();
     const { name } = now().data, button = byId("closure");
-    button.textContent = name ? `Closure: ${name}` : "Closure";
+    button.textContent = name ? said("Closure: {name}", { name }) : said("Closure");
     button.classList.toggle("off", sides.length < 2);
     lay();
   }

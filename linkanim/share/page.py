@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
@@ -41,8 +42,19 @@ from linkanim.scenes.scene import Scene
 from linkanim.share.forces import forces
 from linkanim.share.laws import Law, law_of, parts_of
 from linkanim.share.lengths import model
-from linkanim.share.movers import Mobile, Pairs, begin_of, centre, packed, packed_tracks, shares_of, tracks
+from linkanim.share.movers import (
+    Mobile,
+    Pairs,
+    begin_of,
+    centre,
+    link_words,
+    packed,
+    packed_tracks,
+    shares_of,
+    tracks,
+)
 from linkanim.share.tables import Tabulated, kind_of, table
+from linkanim.words import html_language, said, sentences
 
 # The numbers of a page over one true period, in both directions: rows of values, and the chart.
 
@@ -59,7 +71,7 @@ _OF_A_ROW, _OF_A_CHART = 1 / 16, 2e-6
 
 def input_words(scene: Scene) -> str:
     """Return the name of the input's coordinate: "crank angle"."""
-    return f"{scene.info.input_name} {scene.linkage.drive.coordinate.name}"
+    return scene.info.coordinate_said
 
 
 def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
@@ -76,10 +88,10 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     turn = 360 if scene.info.full_turn else 0
     unit = drive.shown_unit(scene.length_unit)
     body = scene.linkage.driven.body
-    driven = scene.info.link_names.get(body.name) if body else None
+    driven = link_words(scene).get(body.name) if body else None
     of_input = {"of": [f"l {driven}"] if driven else []}
     yield _row(scene, input_words(scene), unit, 0.1, (where, (speed,))) | {"turn": turn} | of_input
-    title = "input speed" if scene.info.full_turn else "input rate"
+    title = said("input speed") if scene.info.full_turn else said("input rate")
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]} | of_input
     for _, label, of, step in measured(scene):
         row = _row(scene, label, of.shown_unit(scene.length_unit), step, (of.shown, (speed, -speed)))
@@ -170,7 +182,7 @@ def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs, laws: Sequence[Law
         for n, column in enumerate(found.values)
     ]
     words, themes = light.quantity.title(scene.length_unit), (light.pen.theme, dark.pen.theme)
-    titles = (words, words.removeprefix(f"{light.quantity.words} "), course.title, "time (s)")
+    titles = (words, words.removeprefix(f"{light.quantity.words} "), course.title, said("time (s)"))
     lines = ([Caption(title, (0.0, 0.0), _WORDS, theme.ink) for theme in themes] for title in titles)
     return {
         "words": words,
@@ -272,20 +284,24 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
         "unit": scene.length_unit,
         "input": input_words(scene),
         "theme": shared.theme,
-        "links": {name: word for name, word in scene.info.link_names.items() if name != word},
+        "links": {name: word for name, word in link_words(scene).items() if name != word},
+        "called": dict(_centres_called(scene)),
         "sides": [side.data() for side in sides],
     }
+    script = "\n".join(map(_bare, map(packaged, ("shapes.js", "solver.js", "lengths.js", "page.js"))))
+    found["said"] = {text: said(text) for text in script_words(script) if said(text) != text}
     found = _short(found)
     if lengths := sides[0].model():
         found["model"] = lengths  # in all its digits: it is solved, not only drawn
     sheet = pairs.styles(shared.themes, shared.theme)
-    script = "\n".join(map(_bare, map(packaged, ("shapes.js", "solver.js", "lengths.js", "page.js"))))
-    kind = scene.info.class_name
+    kind = scene.info.class_said
     digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    return Template(packaged("page.html")).substitute(
+    about = sentences(said("{found}.", found=f"{kind[:1].upper()}{kind[1:]}"), said(scene.look_at))
+    return in_language(packaged("page.html")).substitute(
+        lang=html_language(),
         policy=_POLICY.format(script=digest),
-        title=escape(scene.title),
-        about=escape(f"{kind[:1].upper()}{kind[1:]}. {scene.look_at}".strip()),
+        title=escape(said(scene.title)),
+        about=escape(about),
         styles="\n".join((sheet, packaged("page.css"))),
         faces=FACES,
         view=f"0 0 {size[0]} {size[1]}",
@@ -293,6 +309,31 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
         data=json.dumps(found, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
         script=script,
     )
+
+
+def _centres_called(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Yield the name of each centre of mass that is another one in the language that is spoken."""
+    for name, word in link_words(scene).items():
+        if word != scene.info.link_names[name]:
+            yield centre(name), said("{part}, centre of mass", part=word)
+
+
+_IN_SCRIPT, _IN_PAGE = re.compile(r'\bsaid\("([^"]+)"'), re.compile(r"\{\{(.+?)\}\}")
+
+
+def script_words(script: str) -> list[str]:
+    """Return the sentences that a script says, which it looks up in its page."""
+    return list(dict.fromkeys(_IN_SCRIPT.findall(script)))
+
+
+def page_words(page: str) -> list[str]:
+    """Return the sentences of a page's template: they stand in two braces."""
+    return _IN_PAGE.findall(page)
+
+
+def in_language(page: str) -> Template:
+    """Return a page's template with its sentences in the language that is spoken."""
+    return Template(_IN_PAGE.sub(lambda found: escape(said(found[1])), page))
 
 
 def _bare(script: str) -> str:

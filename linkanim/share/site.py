@@ -7,7 +7,6 @@ from dataclasses import replace
 from html import escape
 from itertools import groupby
 from pathlib import Path
-from string import Template
 
 from linkanim.manifest import FileSet, replacing
 from linkanim.picture.items import clipped
@@ -17,7 +16,8 @@ from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.share.movers import Pairs
-from linkanim.share.page import Shared, document, packaged
+from linkanim.share.page import Shared, document, in_language, packaged
+from linkanim.words import html_language, said
 
 INDEX = "index.html"
 _SIZE = (240, 150)
@@ -54,12 +54,13 @@ def write_site(
 def _index(scenes: Iterable[Scene], shared: Shared) -> str:
     pairs = Pairs()
     chapters = [
-        f"<h2>{escape(chapter[:1].upper() + chapter[1:])}</h2>\n"
+        f"<h2>{escape(said(chapter)[:1].upper() + said(chapter)[1:])}</h2>\n"
         f"<ul>{''.join(_entry(scene, shared, pairs) for scene in some)}</ul>"
         for chapter, some in groupby(scenes, lambda scene: scene.chapter)
     ]
     styles = pairs.styles(shared.themes, shared.theme)
-    return Template(packaged(INDEX)).substitute(styles=styles, chapters="\n".join(chapters))
+    page = in_language(packaged(INDEX))
+    return page.substitute(lang=html_language(), styles=styles, chapters="\n".join(chapters))
 
 
 def _entry(scene: Scene, shared: Shared, pairs: Pairs) -> str:
@@ -69,7 +70,7 @@ def _entry(scene: Scene, shared: Shared, pairs: Pairs) -> str:
     pose, _ = light.poses(_EARLY * scene.period)
     groups = zip(light.groups(pose), dark.groups(pose), strict=True)
     picture = "".join(pairs.elements(clipped(one), clipped(other)) for one, other in groups)
-    words = f"<b>{escape(scene.title)}</b><span>{escape(scene.info.class_name)}</span>"
+    words = f"<b>{escape(said(scene.title))}</b><span>{escape(scene.info.class_said)}</span>"
     size = f"0 0 {_SIZE[0]} {_SIZE[1]}"
     drawn = f'<svg viewBox="{size}" aria-hidden="true">{picture}</svg>'
     return f'<li><a href="{escape(scene.name)}.html">{drawn}{words}</a></li>'

@@ -244,9 +244,9 @@ const solverOf = (model) => {
     const [ground, input, coupler, output] = model.fourBar.map(at), links = [ground, input, coupler, output];
     const [s, p, q, l] = links.slice().sort((one, other) => one - other);
     const margin = p + q - s - l, least = links.indexOf(s);
-    const { grashof: grashofs, rockers, change } = model.classes, most = links.indexOf(l);
+    const { grashof: grashofs, rockers, change: changes } = model.classes, most = links.indexOf(l);
     const sign = Math.abs(margin) <= 2 ** -53 * (s + p + q + l) ? 0 : Math.sign(margin);
-    const name = [`triple-rocker (${rockers[most]})`, `${change} ${grashofs[least]}`, `Grashof ${grashofs[least]}`][sign + 1];
+    const name = [rockers[most], changes[least], grashofs[least]][sign + 1];
     return { name, sums: [s + l, p + q], sign };
   }
 

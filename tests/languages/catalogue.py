@@ -62,10 +62,15 @@ def _of_code() -> Iterator[Sentence]:
 def _of_tables() -> Iterator[Sentence]:
     """Yield the sentences of tables, which are said where they are shown."""
     from linkanim.picture.look import TOGGLES
+    from linkanim.share.page import packaged, page_words, script_words
 
     for name, toggle in TOGGLES.items():
         for words in (toggle.title, *toggle.answers):
             yield Sentence(None, words, None, f"TOGGLES[{name!r}]")
+    for file in ("page.html", "index.html"):
+        yield from (Sentence(None, words, None, f"share/{file}") for words in page_words(packaged(file)))
+    for file in ("lengths.js", "page.js"):
+        yield from (Sentence(None, words, None, f"share/{file}") for words in script_words(packaged(file)))
     for name in linkanim.names():
         scene = linkanim.load(name)
         for words in (scene.title, scene.look_at, scene.chapter):
