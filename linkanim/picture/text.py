@@ -242,9 +242,10 @@ _HYPHENED = re.compile(r"[^-]*-|[^-]+")
 _CLOSES, _OPENS = "。，、；：！？）」』》〉】％", "（「『《〈【"
 _WIDE_SIGN = r"\u2e80-\u2fff\u3040-\u9fff\uac00-\ud7af\uf900-\ufaff"
 """Characters before and after which a line may end: Chinese, Japanese, Korean."""
-_UNSPACED = re.compile(
+_UNSPACED = (
     rf"[{_OPENS}]*(?:[{_WIDE_SIGN}]|[^{_WIDE_SIGN}{_OPENS}{_CLOSES}]+)[{_CLOSES}]*|[{_OPENS}{_CLOSES}]+"
 )
+"""Compiled when it is first used: of all patterns it takes longest."""
 _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
 _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)('*)$")
 
@@ -490,7 +491,7 @@ def unspaced(word: str) -> list[str]:
 
     A mark that closes stays with what is before it, one that opens with what follows.
     """
-    return [word] if word.isascii() else _UNSPACED.findall(word)
+    return [word] if word.isascii() else re.findall(_UNSPACED, word)
 
 
 def _runs(text: str) -> Iterator[Run]:
