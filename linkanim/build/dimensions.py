@@ -27,7 +27,7 @@ _FORMS: Mapping[str, Form] = {
     "gears": file_form.GEAR,
     "springs": file_form.SPRING,
     "dampers": file_form.DAMPER,
-    "drive": file_form.DRIVE,
+    "drive": Form(tuple(one for one in file_form.DRIVE.fields if one not in file_form.MOTOR_OF_POINTS)),
     "drives": Form(tuple(one for one in file_form.FURTHER.fields if one.key in ("speed", "start"))),
 }
 """The properties that each kind may have, in the form of a scene file."""

@@ -262,6 +262,10 @@ class _Apart:
             aside = {"offset": _tidy(back * line.offset)} if abs(line.offset) > _NEAR * self._size else {}
             table = {"bar": bar, "through": slide.point, **aside}
             return draft.having("slots", f"{slide.point} in {bar}", table)
+        if slide.point in draft.of("sliders"):
+            raise BadInput(
+                f"{self.scene.name}: {slide.point} slides on two lines, which a sheet does not draw"
+            )
         guide = numbered(draft, "guides", "guide")
         draft = draft.having("guides", guide, _line(line)).having("sliders", slide.point, {"guide": guide})
         if slide.turns or len(own.points) == 1:

@@ -26,6 +26,7 @@ from linkanim.build.meanings import Meaning
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.analysis import Info
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
 from linkanim.picture.look import Look
@@ -252,7 +253,8 @@ _IN_PLACE = 1e-9
 def glide(before: Scene, after: Scene, frame: int, phase: float, placed: Scene) -> Glide | Changeover | None:
     """Return the glide from one scene to the other; a swing where only the closure differs.
 
-    None where the linkage is another one, or stays in its place at the `phase`.
+    None where the linkage is another one, or stays in its place at the `phase`. Lengths of links that are
+    solved together change at once: each scene on the way would have to be followed all the way round.
     """
     old = {item.key: item for item in dimensions(before)}
     changes = tuple(
@@ -262,7 +264,7 @@ def glide(before: Scene, after: Scene, frame: int, phase: float, placed: Scene) 
         if item.unit == old[item.key].unit and item.value != old[item.key].value
     )
     if changes:
-        return Glide(before, changes, placed, since=frame)
+        return None if group_of(after.linkage) else Glide(before, changes, placed, since=frame)
     places, others = before.pose(phase, 0).position, after.pose(phase, 0).position
     if places.keys() != others.keys():
         return None

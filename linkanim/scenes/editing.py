@@ -82,6 +82,10 @@ class Number(NamedTuple):
             return links | {body.capitalize(): words.capitalize() for body, words in links.items()}
         if section == "bodies":
             return {"name": _named(name, names)}
+        if section == "lengths":
+            link = _named(name, names) if name in names else name.capitalize()
+            pair = re.sub(" *- *", "–", str(self.key[-1]))
+            return {"name": f"{link} {pair}"}
         if section == "loads":
             return {"name": f"Load {name}"}
         if section in ("springs", "dampers"):

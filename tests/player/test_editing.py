@@ -442,6 +442,20 @@ def test_a_way_past_lengths_that_do_not_close_leaves_them_out() -> None:
 
 
 @pytest.mark.slow
+# Of links that are solved together, the points of their pose are the dimensions.
+def test_the_points_of_a_pose_are_listed_and_edited() -> None:
+    state = after(begin(load("stephenson-2")), "edit")
+    labels = [item.label for item in dimensions(state.scene)]
+    assert {"Point O6, y", "Point A, distance", "Point B, x"} <= {*labels}
+    edited = typed(after(state, Action("choose", labels.index("Point B, x"))), "6 cm")
+    assert value(edited, "Point B, x") == 60.0
+    assert edited.glide is None
+    pose = edited.scene.pose(0.0).position
+    assert pose["B"] == pytest.approx((60, 37), rel=1e-14)
+    assert pose["E"] == pytest.approx((150, 96), rel=1e-14)
+    assert after(edited, "undo").scene.linkage == state.scene.linkage
+
+
 def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
     state = crank
     for _ in range(52):

@@ -16,7 +16,7 @@ from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Rigid, Travel
 from linkanim.player.files import SavedScenes
 from linkanim.scenes import load
-from linkanim.scenes.editing import dimensions, with_dimensions
+from linkanim.scenes.editing import dimensions, in_unit, with_dimensions
 from linkanim.scenes.reading import problems, scene_from
 from linkanim.scenes.scene import Scene
 
@@ -442,3 +442,23 @@ def test_a_length_that_was_edited_is_saved_with_the_points(
 def test_joints_are_saved_by_points_where_that_is_asked(tmp_path: Path) -> None:
     asked = scene_from({**load("crank-rocker").document, "form": "points"}, name="my", where="my.toml")
     assert "points" in tomllib.loads(SavedScenes().add(asked, str(tmp_path / "my")).read_text())
+
+
+# The published Stephenson chain, with a point by its distance, a stated length, and a block on its crank.
+IN_UNITS = (
+    STEPHENSON.replace("B = [5, 16]", 'B = { from = "A", length = 12, angle = "100 deg" }')
+    .replace("[drive]", "block = ['K']\n[slides.block]\nlink = 'block'\non = 'FG'\nangle = '80 deg'\n[drive]")
+    .replace("[links]", "K = [44, 24]\n[links]\nDK = ['D', 'K']")
+    + '[lengths]\nEF = { "E - F" = 25 }\n'
+)
+
+
+def test_a_pose_is_the_same_linkage_in_another_unit() -> None:
+    scene = scene_from(tomllib.loads(f'length_unit = "cm"\n{IN_UNITS}'), name="it", where="it")
+    labels = {item.label for item in dimensions(scene)}
+    assert {"Point B, distance", "Point C, x", "Slide block, direction", "Bar EF E–F"} <= labels
+    there = in_unit(scene, "mm")
+    for phase in (0.0, 0.4):
+        places = scene.pose(phase).position
+        for name, (x, y) in there.pose(phase).position.items():
+            assert (x / 10, y / 10) == pytest.approx(places[name], rel=1e-12), name
