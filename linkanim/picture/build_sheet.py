@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import ceil
@@ -19,6 +19,7 @@ import pygame
 
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.bodies import mark_stamp, pin_stamp
 from linkanim.picture.figure import DrawSetting
@@ -27,12 +28,11 @@ from linkanim.picture.items import SHEET, Caption, Group, Halo
 from linkanim.picture.layout import HEAD_STEP, Gauge, Layout, gauge, tool_cells
 from linkanim.picture.marks import label_beside, measure
 from linkanim.picture.motion_marks import turning_arrow
-from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, Rubber, Snap
+from linkanim.picture.overlay import DimensionLine
 from linkanim.picture.photograph import Photograph
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, dashes, disc, glazed, hull, lined, segments, stroke, unit
-from linkanim.picture.sheet_rows import rows
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
@@ -52,8 +52,9 @@ _HANDLES = 12
 """Points of a stroke that are marked; every one can be dragged."""
 
 
+@lru_cache(maxsize=2)
 def sheet(view: View, layout: Layout, theme: Theme) -> Group:
-    """Return the empty sheet: lines at round distances in the scene's unit."""
+    """Return the empty sheet, the same object each time: lines at round distances in the scene's unit."""
     width, height = layout.size
     step = view.scale * grid_step(view, layout)
     x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
@@ -134,18 +135,29 @@ _WHEELS = 0.55
 """The opacity of a wheel."""
 
 
-def draft_gauge(layout: Layout, view: View, draft: DraftShown) -> Gauge:
-    """Return how thick a draft is drawn: like the linkage that it becomes."""
-    ends = [[*map(view.pixel, one.places[:2])] for one in draft.shapes if one.kind == "bars"]
+def draft_gauge(layout: Layout, view: View, shapes: Iterable[Shape]) -> Gauge:
+    """Return how thick a draft's shapes are drawn: like the linkage that it becomes."""
+    ends = [[*map(view.pixel, one.places[:2])] for one in shapes if one.kind == "bars"]
     spans = (abs(end - begin) for begin, end in ends)
     return gauge(layout.unit, min(spans, default=200 * layout.unit))
 
 
 class DraftDrawing:
-    """A draft in one view, in pixels."""
+    """A draft that does not move yet, in pixels: its shapes from the back to the front.
 
-    def __init__(self, draft: DraftShown, view: View, gauge_: Gauge, theme: Theme) -> None:
-        self._draft, self._view, self._gauge, self._theme = draft, view, gauge_, theme
+    `crank` are the pivot and the pin of the driven crank; a bar has the colour of its place among the bars,
+    the crank first. The joints `traced` have marks.
+    """
+
+    def __init__(
+        self,
+        shapes: Sequence[Shape],
+        setting: DrawSetting,
+        crank: tuple[Point, Point] | None = None,
+        traced: tuple[Point, ...] = (),
+    ) -> None:
+        self._shapes, self._crank, self._traced = shapes, crank, traced
+        self._view, self._gauge, self._theme = setting.view, setting.gauge, setting.theme
 
     def groups(self) -> Iterator[Group]:
         """Yield the draft without its names, back to front."""
@@ -158,7 +170,7 @@ class DraftDrawing:
         yield Group("draft-pins", [*self._pins()])
 
     def _of(self, *kinds: str) -> list[Shape]:
-        return [one for one in self._draft.shapes if one.kind in kinds]
+        return [one for one in self._shapes if one.kind in kinds]
 
     def _in_pixels(self, places: tuple[Point, ...]) -> list[complex]:
         return [self._view.pixel(point) for point in places]
@@ -182,7 +194,7 @@ class DraftDrawing:
             yield Layer(self._theme.ground, stroke(ring, self._gauge.line, closed=True))
 
     def _bodies(self) -> Iterator[Layer]:
-        crank = set(self._draft.crank or ())
+        crank = set(self._crank or ())
         bars = sorted(self._of("bars"), key=lambda bar: not crank >= {*bar.places})
         for colour, bar in sorted(enumerate(bars), key=lambda one: len(one[1].places) < 3):
             yield from self._body(bar, colour)
@@ -215,11 +227,11 @@ class DraftDrawing:
     def _pins(self) -> Iterator[Layer]:
         joints = tuple(one.places[0] for one in self._of("pins", "joints"))
         yield from pin_stamp(self._gauge, self._theme).at(self._in_pixels(joints))
-        for n, at in enumerate(self._in_pixels(self._draft.traced)):
+        for n, at in enumerate(self._in_pixels(self._traced)):
             colour = self._theme.traces[n % len(self._theme.traces)]
             yield from mark_stamp(colour, self._gauge, self._theme).at([at])
-        if self._draft.crank:
-            pivot, pin = self._in_pixels(self._draft.crank)
+        if self._crank:
+            pivot, pin = self._in_pixels(self._crank)
             yield from turning_arrow(pivot, pin, self._gauge, self._theme)
 
     def names(self, size: int) -> Iterator[Caption]:
@@ -302,55 +314,23 @@ def _paper(view: View, layout: Layout, gauge: Gauge, theme: Theme, photo: Photo 
     return grid._replace(layers=[*grid.layers, ground], under=laid)
 
 
-def drafted(shown: BuildShown, draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield a draft that does not move yet, what the hand does to it, and the words."""
-    thick = draft_gauge(setting.layout, setting.view, draft)
-    drawing = DraftDrawing(draft, setting.view, thick, setting.theme)
-    yield from drawing.groups()
-    yield from hand(shown, replace(setting, gauge=thick), [*drawing.names(setting.layout.small_size)])
+def named(names: Sequence[Caption], *, over: bool = True) -> Group:
+    """Return the joints' names."""
+    return Group("draft-names", (), names, over=over)
 
 
-def loose(draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield what is drawn beside a moving linkage: guides and pins that nothing is attached to yet."""
-    drawing = DraftDrawing(draft, setting.view, setting.gauge, setting.theme)
-    yield from drawing.groups()
-    yield Group("draft-names", (), [*drawing.names(setting.layout.small_size)])
+def dots(points: Sequence[Point], setting: DrawSetting) -> Group:
+    """Return the points of bodies as dots."""
+    places, reach = [*map(setting.view.pixel, points)], 0.55 * setting.gauge.bar
+    rims = Layer(setting.theme.outline, [at + disc(reach) for at in places])
+    inner = Layer(setting.theme.background, [at + disc(0.6 * reach) for at in places])
+    return Group("dots", [rims, inner], over=True)
 
 
-def hand(shown: BuildShown, setting: DrawSetting, names: Sequence[Caption] = ()) -> Iterator[Group]:
-    """Yield the light on the chosen shape, names, what the hand draws and snaps to, and the words."""
-    if shown.dots:
-        yield Group("dots", [*_dots(shown.dots, setting)], over=True)
-    yield _grid_words(shown, setting)
-    yield from _chosen(shown, setting)
-    yield Group("draft-names", (), names, over=True)
-    for kind, one in (("numbers", shown.panel), ("offers", shown.offers)):
-        if one:
-            yield from rows(kind, one, setting)
-    if shown.rubber:
-        yield from _rubber(shown.rubber, setting)
-    if shown.snap:
-        yield Group("snap", [*_snap(shown.snap, setting)], over=True)
-    for name, at in (("anchor", shown.anchor), ("cursor", shown.cursor)):
-        if at:
-            yield Group(name, [_crosshair(setting.view.pixel(at), setting)], over=True)
-    if shown.hand and not shown.tools:
-        yield Group("hand", [*_pointer(setting.view.pixel(shown.hand), setting)], over=True)
-    cells = tool_cells(setting.layout) if shown.tools else ()
-    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, cells=cells)
-
-
-def _dots(dots: Sequence[Point], setting: DrawSetting) -> Iterator[Layer]:
-    """Yield the points of bodies as dots."""
-    places, reach = [*map(setting.view.pixel, dots)], 0.55 * setting.gauge.bar
-    yield Layer(setting.theme.outline, [at + disc(reach) for at in places])
-    yield Layer(setting.theme.background, [at + disc(0.6 * reach) for at in places])
-
-
-def _grid_words(shown: BuildShown, setting: DrawSetting) -> Group:
+def grid_words(setting: DrawSetting, length_unit: str) -> Group:
     """Return how far the lines of the grid are apart, at the lower right."""
     layout, size = setting.layout, setting.layout.small_size
-    words = f"grid {significant(grid_step(setting.view, layout), 3)} {shown.unit}"
+    words = f"grid {significant(grid_step(setting.view, layout), 3)} {length_unit}"
     at = layout.stage.right - layout.margin, layout.stage.bottom - 1.7 * size
     halo = Halo(setting.theme.background, 0.15 * size)
     return Group(
@@ -358,68 +338,82 @@ def _grid_words(shown: BuildShown, setting: DrawSetting) -> Group:
     )
 
 
-def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield the light on the chosen shape, and the number of one that has a length beside it.
+def chosen(shape: Shape, number: str, setting: DrawSetting, *, is_length: bool) -> Iterator[Group]:
+    """Yield the light on the chosen shape, and its number beside one that has a length.
 
-    Beside a joint is its letter; its numbers are in the list.
+    The number of a bar's length is on a dimension line. Beside a joint is its letter; its numbers are in the
+    list.
     """
-    if shown.chosen is None:
-        return
-    loops = [*lit(shown.chosen, setting.view, 1.5 * setting.gauge.bar)]
+    loops = [*lit(shape, setting.view, 1.5 * setting.gauge.bar)]
     yield Group("chosen", [Layer(ORANGE, loops, _LIT)], over=True)
-    ends = [setting.view.pixel(point) for point in shown.chosen.places[:2]]
-    if shown.number and len(ends) > 1 and shown.chosen.kind not in ("pins", "joints"):
-        if shown.chosen.kind == "guides":
+    ends = [setting.view.pixel(point) for point in shape.places[:2]]
+    if number and len(ends) > 1 and shape.kind not in ("pins", "joints"):
+        if shape.kind == "guides":
             ends = [ends[0] - 30 * setting.layout.unit, ends[0] + 30 * setting.layout.unit]
-        if shown.measures:
-            words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)
+        if is_length:
+            words = DimensionLine(_ALONG, 0, 1, number, chosen=False)
             yield from measure(setting, ends[0], ends[1], words)
         else:
-            yield label_beside(setting, ends[0], ends[1], shown.number)
+            yield label_beside(setting, ends[0], ends[1], number)
 
 
-def _rubber(rubber: Rubber, setting: DrawSetting) -> Iterator[Group]:
-    """Yield what the hand draws, and its measures beside it."""
-    view = setting.view
-    begin, end = view.pixel(rubber.begin), view.pixel(rubber.end)
-    yield Group("rubber", [*_drawn(rubber, begin, end, setting)], over=True)
-    if rubber.words:
-        words = DimensionLine(_ALONG, 0, 1, rubber.words, chosen=False)
-        yield from measure(setting, begin, end, words)
+class Rubber(NamedTuple):
+    """What the hand is drawing from place to place with a tool, and its measures in words."""
+
+    tool: str
+    begin: Point
+    end: Point
+    words: str = ""
+
+    def groups(self, setting: DrawSetting) -> Iterator[Group]:
+        """Yield it, and its measures beside it."""
+        begin, end = setting.view.pixel(self.begin), setting.view.pixel(self.end)
+        yield Group("rubber", [*_tool_mark(self.tool, begin, end, setting)], over=True)
+        if self.words:
+            words = DimensionLine(_ALONG, 0, 1, self.words, chosen=False)
+            yield from measure(setting, begin, end, words)
 
 
-def _drawn(rubber: Rubber, begin: complex, end: complex, setting: DrawSetting) -> Iterator[Layer]:
+def _tool_mark(tool: str, begin: complex, end: complex, setting: DrawSetting) -> Iterator[Layer]:
     gauge, theme = setting.gauge, setting.theme
-    if rubber.tool == "bar":
+    if tool == "bar":
         colours = theme.outline, mixed(theme.metal, theme.background, 0.3)
         for layer in lined([begin, end], gauge.bar, gauge.outline, colours):
             yield layer._replace(alpha=_FAINT)
-    elif rubber.tool == "guide":
+    elif tool == "guide":
         yield Layer(theme.ground, [*hatched(begin, end, gauge, 1)], _FAINT)
     else:
         yield Layer(theme.ink, dashes(begin, end, 11.0 * gauge.line, 2.2 * gauge.line))
 
 
-def _snap(snap: Snap, setting: DrawSetting) -> Iterator[Layer]:
-    """Yield the mark of what is under the hand: a ring, the line lit."""
-    view, gauge, theme = setting.view, setting.gauge, setting.theme
-    at = view.pixel(snap.at)
-    if snap.ends:
-        begin, end = map(view.pixel, snap.ends)
-        yield Layer(ORANGE, segments(begin, end, 2.4 * gauge.bar), _LIT)
-    yield Layer(theme.velocity, stroke(at + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True))
+class Snap(NamedTuple):
+    """What is under the hand: a joint, or a line or bar with its ends; and the place on it."""
+
+    at: Point
+    ends: tuple[Point, Point] | None = None
+
+    def group(self, setting: DrawSetting) -> Group:
+        """Return its mark: a ring, the line lit."""
+        view, gauge, theme, layers = setting.view, setting.gauge, setting.theme, list[Layer]()
+        if self.ends:
+            begin, end = map(view.pixel, self.ends)
+            layers.append(Layer(ORANGE, segments(begin, end, 2.4 * gauge.bar), _LIT))
+        ring = stroke(view.pixel(self.at) + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True)
+        return Group("snap", [*layers, Layer(theme.velocity, ring)], over=True)
 
 
-def _crosshair(at: complex, setting: DrawSetting) -> Layer:
-    arms = 0.9 * setting.gauge.bar * np.array([1, 1j])
-    return Layer(setting.theme.velocity, segments(at - arms, at + arms, 1.3 * setting.gauge.line))
+def crosshair(name: str, place: Point, setting: DrawSetting) -> Group:
+    """Return a cross at a place of the sheet."""
+    at, arms = setting.view.pixel(place), 0.9 * setting.gauge.bar * np.array([1, 1j])
+    cross = Layer(setting.theme.velocity, segments(at - arms, at + arms, 1.3 * setting.gauge.line))
+    return Group(name, [cross], over=True)
 
 
-def _pointer(at: complex, setting: DrawSetting) -> Iterator[Layer]:
-    """Yield an arrow such as the mouse's."""
-    arrow = at + 1.4 * setting.layout.unit * np.array(_ARROW, np.complex128)
-    yield Layer(setting.theme.background, stroke(arrow, 5 * setting.layout.unit, closed=True))
-    yield Layer(setting.theme.ink, [arrow])
+def pointer(place: Point, setting: DrawSetting) -> Group:
+    """Return an arrow such as the mouse's at a place of the sheet."""
+    arrow = setting.view.pixel(place) + 1.4 * setting.layout.unit * np.array(_ARROW, np.complex128)
+    rim = Layer(setting.theme.background, stroke(arrow, 5 * setting.layout.unit, closed=True))
+    return Group("hand", [rim, Layer(setting.theme.ink, [arrow])], over=True)
 
 
 def worded(
@@ -428,17 +422,17 @@ def worded(
     facts: Sequence[str] = (),
     *,
     is_warning: bool = False,
-    cells: Sequence[Rect] = (),
+    tools: bool = False,
     beside: Rect | None = None,
 ) -> Group:
-    """Return a sentence and facts below it at the head, off the cells of tools and what stands `beside`.
+    """Return a sentence and facts below it at the head, off `tools` and what stands `beside`.
 
     Where they have no room in their usual sizes they are set smaller.
     """
     layout, theme = setting.layout, setting.theme
     head = layout.head or layout.stage
     is_wide = layout.size[0] >= layout.size[1]
-    left = max((cell.right for cell in cells), default=head.x) if is_wide else head.x
+    left = max(cell.right for cell in tool_cells(layout)) if tools and is_wide else head.x
     left, top, right = left + layout.margin, head.y + 0.75 * layout.margin, head.right - layout.margin
     wide = (min(right, beside.x - layout.margin) if beside else right) - left
     first, other = layout.text_size, layout.small_size

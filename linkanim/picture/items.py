@@ -17,12 +17,13 @@ from linkanim.picture.view import Rect
 class Target(NamedTuple):
     """A place that can be clicked, and its value.
 
-    It is a "list", a "row" with its number, the column of "boxes", the "track" of a scroll bar with the count
-    of rows, the "help", a "line" of it with its keys, a "toast"; the "bar", a "button" of it with its number;
-    a "tool", or an "answer", with its number; the "dial" and the "slider", with the rail of their knob; a row
-    among the "numbers" or the "offers" on a sheet, with its number, −1 for their title; a "chart", with its
-    panel, a "chart-title" with its token, a "polygon" with its order, a "reading" with its row's label, ""
-    for the class; the "shelf" with its grid, an "entry" of it with its place, its scroll bar, "shelf-track".
+    It is a "list", a "row" with its number, the column of "boxes", the "track" of a scroll bar with the
+    count of rows, the "help", a "line" of it with its keys, a "toast"; the "bar", a "button" of it with
+    its number; a "tool", or an "answer", with its number; the "dial" and the "slider", with the rail of
+    their knob; a row among the "numbers" or the "offers" on a sheet, with its number, −1 for their title,
+    and the rows; a "chart", with its panel, a "chart-title" with its token, a "polygon" with its order, a
+    "reading" with its row's label, "" for the class; the "shelf" with its grid, an "entry" of it with its
+    place, its scroll bar, "shelf-track".
     """
 
     kind: str

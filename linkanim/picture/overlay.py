@@ -23,7 +23,6 @@ from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
-    from linkanim.build.places import Shape
     from linkanim.mechanics.motion import Pose
     from linkanim.picture.figure import DrawSetting
     from linkanim.picture.items import Group
@@ -34,22 +33,6 @@ if TYPE_CHECKING:
 Key = TypeVar("Key")
 
 # What is shown of a linkage that is being built, as data: places in the scene's unit, y up.
-
-
-class Snap(NamedTuple):
-    """What is under the hand: a joint, or a line or bar with its ends; and the place on it."""
-
-    at: Point
-    ends: tuple[Point, Point] | None = None
-
-
-class Rubber(NamedTuple):
-    """What the hand is drawing from place to place with a tool, and its measures in words."""
-
-    tool: str
-    begin: Point
-    end: Point
-    words: str = ""
 
 
 class Hover(NamedTuple):
@@ -70,65 +53,6 @@ class ToolBar:
     chosen: int = 0
     pointed: int | None = None
     typed: bool = False
-
-
-@frozen
-class DraftShown:
-    """A draft that does not move yet: its shapes from the back to the front.
-
-    `crank` are the pivot and the pin of the driven crank; a bar has the colour of its place among the bars,
-    the crank first. The joints `traced` have marks.
-    """
-
-    shapes: tuple[Shape, ...] = ()
-    crank: tuple[Point, Point] | None = None
-    traced: tuple[Point, ...] = ()
-
-
-class RowsShown(NamedTuple):
-    """A list on the sheet: a title, rows of a label and a value, the lit row, and the list's place.
-
-    Without a place it stands at the upper right. A click on one of the rows `options` takes its next value.
-    """
-
-    title: str
-    rows: tuple[tuple[str, str], ...]
-    chosen: int
-    at: Point | None = None
-    options: tuple[int, ...] = ()
-
-
-@frozen
-class BuildShown:
-    """A sheet and what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
-
-    `sentence` says what it is or what is missing, perhaps as a warning, and `facts` what it can do. The shape
-    `chosen` is lit, with its number as it is or as it is typed; where `measures` says so the number is a
-    length on a dimension line. `cursor` is the keys' cursor. Without tools, as in a recording, the place of
-    the `hand` is shown. `panel` has all numbers of the chosen shape, `offers` what the last gesture can mean;
-    `dots` are points of bodies. Lengths are in `unit`. A `photo` lies behind, and its `anchor` stays in
-    place.
-    """
-
-    draft: DraftShown | None = None
-    loose: DraftShown | None = None
-    sentence: str = ""
-    facts: tuple[str, ...] = ()
-    chosen: Shape | None = None
-    number: str = ""
-    measures: bool = True
-    rubber: Rubber | None = None
-    snap: Snap | None = None
-    cursor: Point | None = None
-    tools: ToolBar | None = None
-    hand: Point | None = None
-    photo: Photo | None = None
-    anchor: Point | None = None
-    is_warning: bool = False
-    panel: RowsShown | None = None
-    offers: RowsShown | None = None
-    dots: tuple[Point, ...] = ()
-    unit: str = "mm"
 
 
 # Poses that were set down.
@@ -433,7 +357,7 @@ class BandShown(NamedTuple):
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    Modes have what they have `drawn`, perhaps `alone`, on an empty sheet or the bare ground, in the linkage's
+    Modes have what they have `drawn`, perhaps `alone`, on a sheet or the bare ground, in the linkage's
     place. A `stroke` lies behind the linkage, which is `off` it by so much. `head` is said at the head.
     `construction` is how many steps of the scene's construction are drawn; a `band` lies round traces.
     Answers that are places have `spots` on the picture, in their order; a ram that is followed has its
@@ -444,8 +368,8 @@ class Overlay:
     chart's cursor has a grip. `shutter` is how white the picture is, in eighths. The `bar` has the commands;
     `tools` are those of a sheet, beside a list of dimensions. In a `swing` the linkage is between two
     closures. The share `shut` of an open list is still beyond the window's edge; the mouse is over its row
-    `pointed`. `hover` is what the mouse is
-    over, for those who describe the rest.
+    `pointed`. A `photo` lies behind a sheet. For those who describe the rest: `hover` is what the mouse is
+    over, and what is `recorded` has no mouse.
     """
 
     paused: bool = False
@@ -461,7 +385,7 @@ class Overlay:
     off: str | None = None
     head: Head | None = None
     row: AnswerRow | None = None
-    build: BuildShown | None = None
+    photo: Photo | None = None
     construction: int = 0
     band: BandShown | None = None
     slider: SliderShown | None = None
@@ -483,11 +407,7 @@ class Overlay:
     tools: ToolBar | None = None
     shut: float = 0.0
     hover: Hover | None = None
-
-    @property
-    def tool_bar(self) -> ToolBar | None:
-        """The tools, of a sheet or beside a list of dimensions; None where there are none."""
-        return self.build.tools if self.build else self.tools
+    recorded: bool = False
 
 
 NOTHING_OVER = Overlay()

@@ -160,21 +160,12 @@ class Picture:
     ) -> Iterator[Group]:
         """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
         if overlay.alone:
-            yield self._sheet if overlay.alone == "sheet" else _NOTHING_STILL
+            yield self._paper(overlay) if overlay.alone == "sheet" else _NOTHING_STILL
             yield from self._of_modes(pose, overlay)
             yield from self._slider(overlay.slider)
             return
-        build = overlay.build
-        if build and build.draft:
-            from linkanim.picture.build_sheet import drafted, paper
-
-            yield paper(self.drawing.setting, build.photo)
-            yield from drafted(build, build.draft, self.drawing.setting)
-            return
         if self.sheet and overlay.stroke is None:
-            from linkanim.picture.build_sheet import paper
-
-            yield paper(self.drawing.setting, build.photo if build else None)
+            yield self._paper(overlay)
         yield from self._behind_at(pose.input_speed, overlay.stroke)
         if overlay.lane:
             yield self._lane(overlay.lane)
@@ -316,10 +307,12 @@ class Picture:
         """Whether the linkage may run beyond its stage."""
         return self.look.framed or self.held or self.view != self.composition.view
 
-    @cached_property
-    def _sheet(self) -> Group:
-        from linkanim.picture.build_sheet import sheet
+    def _paper(self, overlay: Overlay) -> Group:
+        """Return the sheet: with its ground line where a linkage is built on it."""
+        from linkanim.picture.build_sheet import paper, sheet
 
+        if self.sheet:
+            return paper(self.drawing.setting, overlay.photo)
         return sheet(self.view, self.layout, self.theme)
 
     def _behind_at(self, speed: float, curve: DrawnCurve | None) -> tuple[Group, ...]:
@@ -427,13 +420,9 @@ class Picture:
         """Yield the marks for the hand: on the chosen bar, and on the joint to be dragged."""
         if overlay == NOTHING_OVER:
             return
-        from linkanim.picture.build_sheet import hand, loose
         from linkanim.picture.marks import glow, measure, spots
 
-        if overlay.build:
-            if overlay.build.loose:
-                yield from loose(overlay.build.loose, self.drawing.setting)
-            yield from hand(overlay.build, self.drawing.setting)
+        yield from self._of_modes(pose, overlay)
         if overlay.construction:
             yield from self._constructed(overlay.construction, pose, overlay.slider)
         for shown in overlay.measured:
@@ -441,7 +430,6 @@ class Picture:
             span = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * span for place in (shown.begin, shown.end))
             yield from measure(self.drawing.setting, begin, end, shown)
-        yield from self._of_modes(pose, overlay)
         for layers, words in spots(self.drawing.setting, overlay.spots, pose):
             yield Group("spot", layers, [words], over=True)
         if overlay.glow:  # the joint and the length that it changes do not overlap: they are filled together

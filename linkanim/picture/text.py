@@ -12,7 +12,7 @@ import unicodedata
 import warnings
 from bisect import bisect_left
 from collections.abc import Hashable, Iterable, Iterator
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from io import BytesIO
 from itertools import groupby, pairwise, product
 from math import ceil, prod
@@ -288,6 +288,15 @@ def typesetting(size: int) -> Typesetting:
 def subscripted(name: str) -> str:
     """Return a name with the number it ends in as a subscript: O2 as O₂, O2' as O₂'; another as it is."""
     return _INDEX.sub(lambda match: match[1].translate(_LOWERED) + match[2], name)
+
+
+_NAME = r"\b[^\W\d_]\w*"
+
+
+@lru_cache(maxsize=512)
+def subscripted_words(words: str) -> str:
+    """Return words with the digits at the ends of names as subscripts."""
+    return re.sub(_NAME, lambda name: subscripted(name[0]), words)
 
 
 _Place = tuple[str, int, int, int]

@@ -18,6 +18,7 @@ From the ground up; a module imports from those before it only:
     making     two modes: the steps of a construction; layers in which a scene can be made
     sketching  what the pencil and poses share: answers come, one is kept
     dial       the pencil's dial, from the most exact answer to the most compact
+    on_sheet   a sheet as it is drawn
     building   two modes: the sheet, on which a linkage is built, and the list of dimensions on it
     listing    a mode: the list of quantities, or of commands
     finding    a mode: one field that finds anything

@@ -22,8 +22,9 @@ from linkanim.mechanics.linkage import Point
 from linkanim.picture.figure import figure
 from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NEW, Overlay
+from linkanim.picture.overlay import NEW, Overlay, ToolBar
 from linkanim.picture.quantities import chart_tokens
+from linkanim.picture.text import subscripted_words
 from linkanim.picture.view import Box
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
@@ -62,8 +63,7 @@ from linkanim.player.keys import (
     tabs,
     undo_keys,
 )
-from linkanim.player.shown import built as shown_on
-from linkanim.player.shown import called, stated, subscripted_words
+from linkanim.player.on_sheet import SheetDrawing, called, stated
 from linkanim.player.sketching import REFUSED, leave_sketch
 from linkanim.player.state import (
     BLANK,
@@ -819,11 +819,11 @@ def _handed(name: str, mouse: Mouse, screen: Screen) -> Action:
 
 def _row_asks(screen: Screen, x: float, y: float) -> Action | None:
     """Return the action of a click on a list of the sheet: another meaning or number; None off it."""
-    shown = screen.over.build
-    for kind, rows in (("offers", shown.offers), ("numbers", shown.panel)) if shown else ():
-        row = screen.number_at(kind, x, y)
-        if rows is None or row is None:
+    for kind in ("offers", "numbers"):
+        target = screen.target_at(kind, x, y)
+        if target is None:
             continue
+        row, rows = target.value
         if row == rows.chosen and row in rows.options:
             return Action("option_on")
         if kind == "numbers":
@@ -1028,7 +1028,18 @@ class OpenSheet(Mode):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the draft, or the linkage, words, tools, and what is under the hand."""
-        return replace(over, build=shown_on(state, sheet_of(state), over.hover), paused=False)
+        sheet, rests, is_listed = sheet_of(state), state.clock.paused, state.edits_dimensions
+        where = sheet, state.scene, state.phase, over.hover
+        drawing = SheetDrawing(*where, is_listed=is_listed, is_recorded=over.recorded, rests=rests)
+        tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
+        return replace(
+            over,
+            drawn=(drawing,),
+            alone="" if drawing.moves else "sheet",
+            photo=sheet.building.draft.photo,
+            tools=ToolBar(tool, over.hover.tool if over.hover else None, typed=is_listed),
+            paused=False,
+        )
 
     def menu(self, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
         """Choose what a right click is on, and list its commands; else list all."""

@@ -16,11 +16,11 @@ from linkanim.mechanics.analysis import Info
 from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.overlay import DimensionLine, Overlay, ToolBar
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
+from linkanim.picture.text import subscripted_words
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
 from linkanim.player.commands import BUILD_ON_BAR, LISTED_BAR
 from linkanim.player.keys import LIST_KEYS, KeyRow, ModeKeys, TypedKeys, on
-from linkanim.player.shown import subscripted_words
 from linkanim.player.state import (
     FLASH_FRAMES,
     Edited,

@@ -200,7 +200,9 @@ class Listing(Mode):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list, in the place of any other."""
-        return replace(over, listed=self._rows(state), tools=None, spots=(), handles=())
+        return replace(
+            over, listed=self._rows(state), tools=over.tools if state.building else None, spots=(), handles=()
+        )
 
     def _rows(self, state: State) -> Quantities:
         scene = state.displayed

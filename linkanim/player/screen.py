@@ -314,7 +314,7 @@ class Screen:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             row = self._row.draw(surface, picture.layout, over.row)
-            tools = self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
+            tools = self._tools.draw(surface, picture.layout, picture.theme, over.tools)
             self._targets = *self._printer.targets, *row, *tools
         place = layout(self.size, docked=Docked(bar=True)) if over.shelf else picture.layout
         self._targets += tuple(self._bar.draw(surface, place, theme_of(state.look.theme), over.bar))

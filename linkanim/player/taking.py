@@ -303,7 +303,7 @@ class TakeDialog(Mode):
         is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
         facts = () if is_whole or not self.folder else (f"in {self.folder}",)
         panel = Panel(shown, "Record and save", facts, error=self.refusal or None, hint=_HINT, counted=False)
-        return replace(over, listed=panel, tools=None, spots=(), handles=())
+        return replace(over, listed=panel, tools=over.tools if state.building else None, spots=(), handles=())
 
     def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
         """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""

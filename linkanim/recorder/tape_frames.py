@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkanim.picture.look import Look, Material, ThemeName
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.photograph import refuse_lacking
 from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.shelf import RowPrinter
@@ -19,7 +18,7 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.play.games import game_of
 from linkanim.player import tape_file
 from linkanim.player.framing import Framing
-from linkanim.player.shown import overlay
+from linkanim.player.shown import recorded
 from linkanim.recorder.plan import SIDES, Clip, make_plan, refuse_size
 from linkanim.recorder.recording import (
     Progress,
@@ -60,9 +59,9 @@ class TapeFrames:
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, which the next call overwrites."""
         state, phase = self._at(frame)
-        picture, over = self._framing.at(state, self.size), _lasting(overlay(state), photo=self._photo)
-        if over.build and over.build.photo:
-            refuse_lacking(over.build.photo.file)
+        picture, over = self._framing.at(state, self.size), recorded(state, photo=self._photo)
+        if over.photo:
+            refuse_lacking(over.photo.file)
         self._printer.print(self._surface, picture, phase, state.clock.speed, over)
         self._row.draw(self._surface, picture.layout, over.row)
         return pixel_view(self._surface)
@@ -72,13 +71,6 @@ class TapeFrames:
             self._ahead, self._next = self._tape.pictures(self._fps), 0
         skipped, self._next = frame - self._next, frame + 1
         return next(islice(self._ahead, skipped, None))
-
-
-def _lasting(over: Overlay, *, photo: bool = False) -> Overlay:
-    """Return what an overlay says of the linkage: lists, help, notes; no marks and no short messages."""
-    build = over.build and replace(over.build, tools=None, photo=over.build.photo if photo else None)
-    bare = replace(over, build=build, toast=None, chip=None, hint=None, watch=None, bar=None, tools=None)
-    return replace(bare, paused=False, grip=False, shutter=0)
 
 
 def _shape(window: tuple[int, int]) -> tuple[int, int]:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import RowsShown
 from linkanim.picture.picture import Picture
-from linkanim.picture.sheet_rows import rows
+from linkanim.picture.sheet_rows import SheetRows
 from linkanim.scenes import load
 
-BAR = RowsShown(
+BAR = SheetRows(
     "bar A–B", (("length", "100 mm"), ("mass", "12 kg"), ("inertia", "0.02 kg m²"), ("look", "plate")), 1
 )
-OFFERS = RowsShown("Tab, or a click: it may be", (("a pin on the bar", ""), ("a joint of both", "")), 0)
+OFFERS = SheetRows("Tab, or a click: it may be", (("a pin on the bar", ""), ("a joint of both", "")), 0)
 
 
 # at the upper right, at a place, and where it would reach beyond the stage's right and lower edge
@@ -21,15 +20,15 @@ OFFERS = RowsShown("Tab, or a click: it may be", (("a pin on the bar", ""), ("a 
 @pytest.mark.parametrize("size", [(1280, 720), (320, 180)])
 @pytest.mark.parametrize("shown", [BAR, OFFERS], ids=["numbers", "meanings"])
 def test_each_row_holds_its_words_and_is_found_there(
-    shown: RowsShown, size: tuple[int, int], at: tuple[float, float] | None
+    shown: SheetRows, size: tuple[int, int], at: tuple[float, float] | None
 ) -> None:
     shown = shown._replace(at=at)
     setting = Picture(load("crank-rocker"), size, Look()).drawing.setting
     layout = setting.layout
-    (group,) = rows("numbers", shown, setting)
+    group = shown.group("numbers", setting)
 
     def row_at(x: float, y: float) -> int | None:
-        return next((one.value for one in group.targets if one.place.holds(x, y)), None)
+        return next((one.value[0] for one in group.targets if one.place.holds(x, y)), None)
 
     title, *words = group.captions
     told = [text for row in shown.rows for text in row if text]

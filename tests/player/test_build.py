@@ -16,11 +16,11 @@ from linkanim.build.dimensions import rows_of
 from linkanim.build.draft import UNTITLED, Photo
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
-from linkanim.picture.build_sheet import DraftDrawing, draft_gauge
+from linkanim.picture.build_sheet import draft_gauge
 from linkanim.picture.layout import tool_cells
-from linkanim.picture.overlay import NEW, RowsShown
+from linkanim.picture.overlay import NEW
 from linkanim.picture.photograph import lack
-from linkanim.picture.sheet_rows import row_rects
+from linkanim.picture.sheet_rows import SheetRows
 from linkanim.picture.tools import ICONS
 from linkanim.picture.view import Rect
 from linkanim.play.arcade import Arcade
@@ -31,12 +31,13 @@ from linkanim.player.files import DraftFile
 from linkanim.player.keys import Press, bind_of
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
+from linkanim.player.on_sheet import SheetDrawing
 from linkanim.player.shelving import OpenShelf
-from linkanim.player.shown import overlay
+from linkanim.player.shown import recorded
 from linkanim.player.state import TOAST_FRAMES, BuildSheet, Grip, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
-from linkanim.recorder.tape_frames import _lasting, record_tape
+from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions, other_closure
 from linkanim.scenes.toml import parse, save
@@ -79,13 +80,19 @@ def builder(here: object) -> Iterator[Builder]:
         player.window.close()
 
 
+def on_sheet(builder: Builder) -> SheetDrawing:
+    """Return the sheet as it was drawn last."""
+    (shown,) = builder.window.screen.over.drawn
+    assert isinstance(shown, SheetDrawing)
+    return shown
+
+
 def captions(builder: Builder) -> list[Rect]:
     """Return where words stand on the window, without those of the list beside the sheet."""
     picture, state, over = builder.window.screen.last, builder.state, builder.window.screen.over
-    assert over.build
-    bare = replace(over, build=replace(over.build, panel=None))
-    groups = picture.groups(picture.scene.pose(state.phase), bare)
-    return [line.around(picture.type) for group in groups for line in group.captions]
+    groups = picture.groups(picture.scene.pose(state.phase), over)
+    of_sheet = (group for group in groups if group.name != "sheet-rows")
+    return [line.around(picture.type) for group in of_sheet for line in group.captions]
 
 
 @pytest.mark.parametrize("places", [((0, 0),), ((0, 0), (40, 20)), ((0, 0), (0, 40)), ((0, 0), (-40, 0))])
@@ -102,10 +109,9 @@ def test_what_was_just_set_down_has_its_letter_and_no_words_on_it(
 
 def test_an_empty_sheet_says_what_to_do(builder: Builder) -> None:
     assert builder.state.mode == "build"
-    shown = builder.window.screen.over.build
-    assert shown
-    assert shown.sentence == builder.sheet.building.made.missing
-    assert "ground pin" in shown.sentence
+    shown = on_sheet(builder)
+    assert shown.words[0] == builder.sheet.building.made.missing
+    assert "ground pin" in shown.words[0]
 
 
 def test_a_four_bar_is_drawn_in_five_gestures_and_runs_for_a_period(builder: Builder) -> None:
@@ -129,11 +135,11 @@ def test_before_it_moves_what_is_drawn_is_shown_with_what_is_missing(builder: Bu
     builder.draw((0, 0), (30, 0))
     before = builder.pixels
     builder.draw((30, 0), (60, 80))
-    shown = builder.window.screen.over.build
-    assert shown
-    assert shown.draft
-    assert [one.kind for one in shown.draft.shapes] == ["bars", "bars", "pins", "joints", "joints"]
-    assert shown.draft.crank == ((0.0, 0.0), (30.0, 0.0))
+    shown = on_sheet(builder)
+    assert not shown.moves
+    assert [one.kind for one in shown.shapes] == ["bars", "bars", "pins", "joints", "joints"]
+    drawing = shown.draft(builder.window.screen.last.drawing.setting)
+    assert drawing._crank == ((0.0, 0.0), (30.0, 0.0))
     assert builder.pixels != before
 
 
@@ -142,14 +148,12 @@ def test_the_hand_shows_its_bar_and_what_it_would_be_joined_to(builder: Builder)
     builder.click(100, 0)
     builder.mouse(pygame.MOUSEBUTTONDOWN, builder.at(0, 0), button=1)
     builder.mouse(pygame.MOUSEMOTION, builder.at(30, 40), rel=(0, 0), buttons=(1, 0, 0))
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.rubber
     assert shown.rubber.end == pytest.approx((30, 40), abs=1.0)
     assert shown.rubber.words == "50 mm · 53.1°"
     builder.mouse(pygame.MOUSEMOTION, builder.at(99, 1), rel=(0, 0), buttons=(1, 0, 0))
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.snap
     assert shown.snap.at == (100.0, 0.0)
 
@@ -249,10 +253,9 @@ def test_icons_take_tools_and_act(builder: Builder) -> None:
     builder.mouse(
         pygame.MOUSEMOTION, (cells[0].middle.real, cells[0].middle.imag), rel=(0, 0), buttons=(0, 0, 0)
     )
-    shown = builder.window.screen.over.build
-    assert shown
-    assert shown.tools
-    assert shown.tools.pointed == 0
+    tools = builder.window.screen.over.tools
+    assert tools
+    assert tools.pointed == 0
 
 
 def test_another_mechanism_leaves_the_sheet(builder: Builder) -> None:
@@ -290,12 +293,10 @@ def test_a_length_typed_for_the_chosen_bar_waits_in_its_row_while_tab_goes_on(bu
 def test_digits_are_the_number_of_what_is_chosen(builder: Builder) -> None:
     builder.click(0, 0)
     builder.draw((0, 0), (30, 0))
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.number == "length 30 mm"
     builder.type("32.5")
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.number == "length 32.5_"
     builder.press(pygame.K_RETURN)
     assert builder.sheet.building.draft.of("bars")["O2–A"]["length"] == 32.5
@@ -311,10 +312,9 @@ def test_del_says_what_went_with_it(builder: Builder) -> None:
     builder.tick(200)
     builder.click(0, 0)
     builder.press(pygame.K_DELETE)
-    shown = builder.window.screen.over.build
-    assert shown
-    assert shown.sentence.startswith("Removed joint O2, with ")
-    assert not shown.is_warning
+    shown = on_sheet(builder)
+    assert shown.words[0].startswith("Removed joint O2, with ")
+    assert not shown.sheet.building.is_refusal
     builder.press(pygame.K_z, CTRL)
     assert builder.sheet.building.made.scene is builder.state.scene
 
@@ -509,9 +509,10 @@ def test_a_building_tape_is_recorded_with_the_hand_and_without_tools(builder: Bu
     found = record_tape("four-bar.tape.json", "four-bar.gif", size=(160, 90), fps=10)
     assert found.path.exists()
     grip = replace(builder.state.building, grip=Grip((0, 0), (9, 9), 1, 1, builder.sheet.building, True))  # type: ignore[type-var]
-    shown = _lasting(overlay(replace(builder.state, sheet=grip))).build
-    assert shown
-    assert (shown.tools, shown.hand) == (None, (9, 9))
+    state = replace(builder.state, sheet=grip)
+    over, picture = recorded(state), builder.window.screen.last
+    drawn = {group.name for group in picture.groups(picture.scene.pose(state.phase), over)}
+    assert (over.tools, "hand" in drawn) == (None, True)
 
 
 @pytest.fixture
@@ -572,10 +573,8 @@ def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
 ) -> None:
     path = saved_over(builder, photograph, here)
     assert parse(path.read_text(), "it")["photo"]["file"] == "digger.png"
-    over = overlay(builder.state)
     for photo in (False, True):
-        shown = _lasting(over, photo=photo).build
-        assert shown
+        shown = recorded(builder.state, photo=photo)
         assert (shown.photo is not None) is photo
 
 
@@ -607,13 +606,11 @@ def test_a_distance_on_a_photograph_can_be_typed(builder: Builder, photograph: P
     builder.click(*one)
     builder.tick(30)
     builder.click(*other)
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.rubber
     assert shown.rubber.words == "distance 40 mm"
     builder.type("8cm")
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.rubber
     assert shown.rubber.words == "distance 8cm_"
     builder.press(pygame.K_RETURN)
@@ -676,7 +673,7 @@ def test_a_photograph_dropped_while_linkages_are_looked_for_lays_the_pencil_down
     pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
     builder.tick(2)
     assert builder.sheet.before is before
-    assert not overlay(builder.state).drawn
+    assert not builder.state.sketch
     assert photo_of(builder).file == "digger.png"
 
 
@@ -827,14 +824,13 @@ def levered(builder: Builder) -> None:
     builder.draw((20, 40), (7, 20))
 
 
-def listed(builder: Builder, name: str) -> tuple[RowsShown, list[Rect]]:
+def listed(builder: Builder, name: str) -> tuple[SheetRows, list[Rect]]:
     """Return a list of the sheet and where its rows are in the window."""
-    shown = builder.window.screen.over.build
-    assert shown
-    rows: RowsShown | None = getattr(shown, name)
+    shown = on_sheet(builder)
+    rows: SheetRows | None = getattr(shown, name)
     assert rows
-    picture = builder.window.screen.last
-    return rows, [*row_rects(picture.layout, picture.view, rows)][1:]
+    targets = builder.window.screen.targets(name)
+    return rows, [one.place for one in targets if one.value[0] >= 0]
 
 
 def test_a_press_puts_what_runs_back_where_it_was_drawn_and_picks_the_joint_there(builder: Builder) -> None:
@@ -893,19 +889,19 @@ def test_all_numbers_of_what_is_chosen_are_listed_and_a_click_chooses_one(builde
     builder.four_bar()
     builder.tick(200)
     builder.click(0, 0)
-    rows, places = listed(builder, "panel")
+    rows, places = listed(builder, "numbers")
     assert rows.title == "pin O₂"
     known = rows_of(builder.sheet.building.draft, ("joints", "O2"))
     assert [label for label, _ in rows.rows] == [one.label for one in known]
     builder.drag((places[1].middle.real, places[1].middle.imag))
     assert (builder.sheet.building.row, builder.sheet.building.chosen) == (1, ("joints", "O2"))
     builder.type("7")
-    assert listed(builder, "panel")[0].rows[1] == ("y", "7_")
+    assert listed(builder, "numbers")[0].rows[1] == ("y", "7_")
 
 
 def row_of(builder: Builder, label: str) -> tuple[float, float]:
     """Return where in the window a row of the panel is."""
-    rows, places = listed(builder, "panel")
+    rows, places = listed(builder, "numbers")
     middle = places[[name for name, _ in rows.rows].index(label)].middle
     return middle.real, middle.imag
 
@@ -918,7 +914,7 @@ def test_letters_are_typed_in_a_row_of_words_that_was_asked_for_and_tools_before
     assert builder.sheet.tool == "move"
     builder.drag(row_of(builder, "link's name"))
     builder.type("rod")
-    assert dict(listed(builder, "panel")[0].rows)["link's name"] == "rod_"
+    assert dict(listed(builder, "numbers")[0].rows)["link's name"] == "rod_"
     builder.press(pygame.K_RETURN)
     assert builder.sheet.tool == "move"
     assert "rod" in [body.name for body in builder.state.scene.linkage.bodies]
@@ -981,10 +977,10 @@ def test_a_second_click_on_a_row_of_looks_takes_the_next(builder: Builder) -> No
     builder.click(45, 40)
     for stated in ("–", "bar", "plate"):
         builder.drag(row_of(builder, "look"))
-        assert dict(listed(builder, "panel")[0].rows)["look"] == stated
+        assert dict(listed(builder, "numbers")[0].rows)["look"] == stated
     assert "plate" in [body.get("look") for body in builder.state.scene.document["bodies"].values()]
     builder.press(pygame.K_z, CTRL)
-    assert dict(listed(builder, "panel")[0].rows)["look"] == "bar"
+    assert dict(listed(builder, "numbers")[0].rows)["look"] == "bar"
 
 
 def test_what_is_no_length_stands_on_no_dimension_line(builder: Builder) -> None:
@@ -992,16 +988,14 @@ def test_what_is_no_length_stands_on_no_dimension_line(builder: Builder) -> None
     builder.tick(30)
     builder.click(60, -20)
     builder.draw((0, 0), (120, 30))
-    shown = builder.window.screen.over.build
-    assert shown
-    assert (shown.number, shown.measures) == ("length 124 mm", True)
+    shown = on_sheet(builder)
+    assert (shown.number, shown.is_length) == ("length 124 mm", True)
     builder.press(pygame.K_9, CTRL)
     builder.draw((60, -20), (72, 18))
     builder.tick(200)
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert shown.number.startswith("from ")
-    assert not shown.measures
+    assert not shown.is_length
 
 
 def test_after_a_refusal_digits_are_typed_anew(builder: Builder) -> None:
@@ -1010,9 +1004,8 @@ def test_after_a_refusal_digits_are_typed_anew(builder: Builder) -> None:
     builder.click(45, 40)
     builder.type("-9")
     builder.press(pygame.K_RETURN)
-    shown = builder.window.screen.over.build
-    assert shown
-    assert shown.is_warning
+    shown = on_sheet(builder)
+    assert shown.sheet.building.is_refusal
     builder.type("75")
     assert builder.sheet.building.typed == "75"
 
@@ -1038,18 +1031,17 @@ def test_a_cylinder_s_pin_has_one_pedestal(builder: Builder) -> None:
     builder.draw((0, 0), (60, 60))
     builder.press(pygame.K_9, CTRL)
     builder.draw((60, 0), (60, 60))
-    shown = builder.window.screen.over.build
+    shown = on_sheet(builder)
     assert builder.sheet.building.made.scene
     assert shown
-    assert shown.loose is None
+    assert shown.loose(builder.window.screen.last.drawing.setting) is None
 
 
 def test_the_grid_says_its_size_and_points_of_bodies_are_dots(builder: Builder) -> None:
     builder.four_bar()
     builder.tick(200)
     builder.draw((45, 40), (45, 60))
-    shown = builder.window.screen.over.build
-    assert shown
+    shown = on_sheet(builder)
     assert len(shown.dots) == 1
     screen_ = builder.window.screen
     groups = screen_.last.groups(builder.state.scene.pose(builder.state.phase), screen_.over)
@@ -1064,15 +1056,14 @@ def test_letters_of_a_draft_are_off_its_bars(builder: Builder, size: tuple[int, 
     builder.four_bar()
     for end in ((150, 40), (60, 20), (130, -40)):
         builder.draw((100, 0), end)
-    shown, picture = builder.window.screen.over.build, builder.window.screen.last
-    assert shown
-    assert shown.draft
-    thick = draft_gauge(picture.layout, picture.view, shown.draft)
-    drawing = DraftDrawing(shown.draft, picture.view, thick, picture.theme)
+    shown, picture = on_sheet(builder), builder.window.screen.last
+    assert not shown.moves
+    thick = draft_gauge(picture.layout, picture.view, shown.shapes)
+    drawing = shown.draft(replace(picture.drawing.setting, gauge=thick))
     size_ = picture.layout.small_size
     for name in drawing.names(size_):
         at = complex(name.at[0], name.at[1] + 0.62 * size_)
-        for bar in (one for one in shown.draft.shapes if one.kind == "bars"):
+        for bar in (one for one in shown.shapes if one.kind == "bars"):
             begin, end_ = (picture.view.pixel(place) for place in bar.places[:2])
             share = ((at - begin) / (end_ - begin)).real
             off = abs(at - begin - min(max(share, 0.0), 1.0) * (end_ - begin))

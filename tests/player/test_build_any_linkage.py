@@ -148,9 +148,7 @@ def test_a_motor_is_dragged_onto_a_joint_between_moving_links(hand: Hand) -> Non
     draft = hand.sheet.building.draft
     assert draft.drive["motor"] == {"pivot": "B", "between": ["A", "O4"]}
     assert group_of(hand.state.scene.linkage)
-    shown = hand.window.screen.over.build
-    assert shown
-    assert shown.offers
+    assert hand.window.screen.targets("offers")
     hand.press(pygame.K_TAB)
     assert hand.sheet.building.draft.driven == "B"
     hand.press(pygame.K_z, CTRL)

@@ -114,7 +114,7 @@ def test_the_mode_is_left_at_once_and_the_motion_is_as_it_was(
     )
     editor.tool("spring")
     editor.draw(editor.place("B"), (20, -60))
-    assert overlay(editor.state).build
+    assert overlay(editor.state).drawn
     if way == "button":
         editor.window.state = after(editor.state, "back")
     else:
