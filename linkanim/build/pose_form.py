@@ -19,7 +19,7 @@ from linkanim.build.places import crank_of, line_of, place_of
 from linkanim.errors import BadInput
 from linkanim.mechanics.groups import GROUND, GroupLink, GroupSlide, LinkGroup, group_of
 from linkanim.mechanics.linkage import Line
-from linkanim.scenes.links import in_degrees
+from linkanim.scenes.links import in_degrees, nearest
 from linkanim.scenes.scene import Scene
 
 _NEAR = 1e-9
@@ -166,12 +166,24 @@ def _drive(draft: Draft, links: _Links) -> dict[str, Any]:
             raise BadInput(f"The motor at {pivot} has no two links there: let it go on another joint")
         return {"joint": pivot, "links": both, **kept}
     if "slider" in stated:
-        ends = {key: stated["slider"][key] for key in ("from", "to")}
-        return {"slide": links.blocks[str(draft.driven)], **ends, **kept}
+        return {"slide": links.blocks[str(draft.driven)], **_ends(draft, stated["slider"]), **kept}
     if "cylinder" in stated:
         cylinder = {key: value for key, value in stated["cylinder"].items() if key != "joint"}
         kept["cylinder"] = cylinder
     return _motor(draft, links, str(draft.driven)) | kept
+
+
+def _ends(draft: Draft, slider: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the ends of a driving slider's travel, counted as that of a slide is: from the nearest pin."""
+    joint = str(draft.driven)
+    start, along = line_of(draft, draft.of("guides")[draft.of("sliders")[joint]["guide"]])
+    places = {name: place_of(draft, name) for name in draft.places}
+    pin = nearest(places, draft.of("pins"), places[joint], phase(along))
+    more = ((start - places[pin]) * along.conjugate()).real
+    ends = {key: slider[key] for key in ("from", "to")}
+    if abs(more) <= _NEAR * max(map(abs, places.values())):
+        return ends
+    return {key: units.length(end, unit=draft.unit) + more for key, end in ends.items()}
 
 
 def _bodies(draft: Draft, links: _Links) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -205,7 +217,10 @@ class _Apart:
 
     def draft(self) -> Draft:
         """Return the draft."""
-        members = self.group.members
+        members, driven = self.group.members, self.group.driven_slide
+        if driven and (driven.on != GROUND or driven.turns):
+            reason = "is driven by a length between moving links, which a sheet does not draw"
+            raise BadInput(f"{self.scene.name}: {reason}")
         places = {name: place for one in members for name, place in zip(one.points, one.places, strict=True)}
         order = [name for name in self.document["points"] if name in places]
         rest = {key: value for key, value in self.document.items() if key not in (*_TABLES, "photo")}
@@ -319,6 +334,10 @@ class _Apart:
     def _drive(self, draft: Draft) -> dict[str, Any]:
         stated = self.document["drive"]
         kept = {key: stated[key] for key in ("speed", "returns") if key in stated}
+        if slide := self.group.driven_slide:
+            ends = self.scene.linkage.drive.actuator.stated_lengths
+            slider = dict(zip(("joint", "from", "to"), (slide.point, *ends), strict=True))
+            return {"slider": slider, **kept}
         if self.group.motor:
             return {"motor": {"pivot": self.group.motor.pivot, "between": [*self.group.motor.arms]}, **kept}
         pivot, joint = self._crank(self.group.crank) or ("", "")

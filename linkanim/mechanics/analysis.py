@@ -24,7 +24,7 @@ from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.balance import surplus
 from linkanim.mechanics.forces import Demand, demand, usual_effort
 from linkanim.mechanics.groups import LinkGroup, group_of
-from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
+from linkanim.mechanics.linkage import RRR, Body, Joint, Linkage, Rigid, holding
 from linkanim.mechanics.measures import (
     as_output,
     near,
@@ -296,9 +296,11 @@ def group_name(group: LinkGroup) -> str:
 
     A pin in a slot stands for a block that turns about it, which is a link.
     """
-    sliding = any(not slide.turns for slide in group.slides), any(slide.turns for slide in group.slides)
+    cylinders = [slide for slide in group.slides if group.between(slide)]
+    slots = any(slide.turns for slide in group.slides if slide not in cylinders)
+    sliders = any(not slide.turns for slide in group.slides if slide not in cylinders)
     geared, driven = (any(gear.motor == motor for gear in group.gears) for motor in (False, True))
-    has = zip(_HAS, (*sliding, geared, driven), strict=True)
+    has = zip(_HAS, (sliders, slots, bool(cylinders), geared, driven), strict=True)
     parts = [said(word) for word, there in has if there]
     bars = bars_named(len(group.members) + sum(slide.turns for slide in group.slides))
     if not parts:
@@ -306,7 +308,7 @@ def group_name(group: LinkGroup) -> str:
     return said("{bars} linkage with {parts}", bars=bars, parts=said_as("list", " and ").join(parts))
 
 
-_HAS = to_say("slider"), to_say("slot"), to_say("gears"), to_say("further motors")
+_HAS = to_say("slider"), to_say("slot"), to_say("cylinder"), to_say("gears"), to_say("further motors")
 _BARS = (
     to_say("four-bar"),
     to_say("five-bar"),
@@ -652,7 +654,7 @@ class Info:
         and three joints; a pin in a slot is a link, the block, that turns and slides.
         """
         linkage = self.mechanism.linkage
-        inputs = len(tuple(linkage.cranks)) + isinstance(linkage.driven.joint, DrivenSlider)
+        inputs = len(tuple(linkage.cranks)) + (linkage.driven.joint.driven_slide is not None)
         pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
         links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
         meshes = sum(bool(crank.gear and not crank.gear.motor) for crank in linkage.cranks)

@@ -12,11 +12,17 @@ from numpy.typing import NDArray
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.solver import courses
 from linkanim.mechanics.solver.following import LinkEquations, system_of
 from linkanim.mechanics.tolerances import ONE_CLOSURE, SOLVED
 
 STARTS, _ROUNDS, _REACH = 3000, 40, 2.0
 """How many poses Newton's method starts from, and for how long; how far they reach, in lengths of links."""
+
+
+def travel_range(linkage: Linkage) -> tuple[float, float]:
+    """Return how far the length that drives a group can go; AssemblyError where nothing stops it."""
+    return courses.travel_range(linkage.near)
 
 
 def group_closures(linkage: Linkage) -> list[dict[str, complex]]:

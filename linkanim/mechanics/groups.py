@@ -16,6 +16,7 @@ from typing import ClassVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Joint, Line, Linkage, Point, RigidBody, Slide, Stated
+from linkanim.mechanics.tolerances import ONE_POINT
 
 GROUND = "ground"
 
@@ -42,13 +43,15 @@ class GroupLink(Stated):
 class GroupSlide(NamedTuple):
     """A point of a link that slides along a line of the link `on`; `angle` is the line's in the pose (rad).
 
-    The link itself `turns` on the other, as a pin in a slot does; or it does not, as a block.
+    Its travel is counted from the point `start` of `on`. The link itself `turns` on the other, as a pin in a
+    slot does; or it does not, as a block.
     """
 
     name: str
     link: str
     point: str
     on: str
+    start: str
     angle: float
     turns: bool
 
@@ -82,8 +85,8 @@ class LinkGroup(Stated):
     """Links that are solved together, the ground and the driven crank among them, in one pose.
 
     `at` is the input's angle in the pose (rad), `crank` the crank's link: "" where a `motor` drives that is
-    between two links of the group. `points` are those that the group places, in the order of the linkage's
-    joints.
+    between two links of the group, or the slide named `driven`, whose travel is the input. `points` are
+    those that the group places, in the order of the linkage's joints.
     """
 
     at: float
@@ -93,6 +96,7 @@ class LinkGroup(Stated):
     slides: tuple[GroupSlide, ...] = ()
     gears: tuple[GroupGear, ...] = ()
     motor: GroupMotor | None = None
+    driven: str = ""
 
     sized: ClassVar[tuple[str, ...]] = ("members",)
 
@@ -106,13 +110,27 @@ class LinkGroup(Stated):
         """The links whose motion the group gives: all but the ground and the crank."""
         return (member for member in self.members if member.name not in (GROUND, self.crank))
 
+    @property
+    def driven_slide(self) -> GroupSlide | None:
+        """The slide that drives; None where none does."""
+        return next((slide for slide in self.slides if slide.name == self.driven), None)
+
+    def between(self, slide: GroupSlide) -> tuple[str, str] | None:
+        """Return the ends of a cylinder: of a slide whose line, on a link of one point, runs through that."""
+        carrier = self.by_name[slide.on]
+        if slide.on == GROUND or len(carrier.points) > 1:
+            return None
+        way = self.by_name[slide.link].place(slide.point) - carrier.place(carrier.points[0])
+        along = way * direction_of(-slide.angle)
+        return (carrier.points[0], slide.point) if abs(along.imag) <= ONE_POINT * along.real else None
+
     def line(self, slide: GroupSlide) -> Line | None:
         """Return the line of a slide; None on a link that has no two points, and so no axis.
 
-        It runs through the link's first point, from which the travel is counted.
+        It runs through the point from which the travel is counted.
         """
         carrier, place = self.by_name[slide.on], self.by_name[slide.link].place(slide.point)
-        first, *others = carrier.points
+        first, others = slide.start, [name for name in carrier.points if name != slide.start]
         start = carrier.place(first)
         offset = ((place - start) * direction_of(-slide.angle)).imag
         if slide.on == GROUND:
@@ -123,6 +141,11 @@ class LinkGroup(Stated):
         second = next((name for name in others if carrier.place(name) != start), others[0])
         turned = math.remainder(slide.angle - phase(carrier.place(second) - start), math.tau)
         return Line(first, turned, offset, (first, second))
+
+    def way(self, slide: GroupSlide) -> Line | None:
+        """Return the line of a slide, of a cylinder that from end to end; None where points show none."""
+        ends = self.between(slide)
+        return Line(ends[0], on=ends) if ends else self.line(slide)
 
     def at_point(self, point: str) -> list[GroupLink]:
         """Return the links that a point is on."""
@@ -142,7 +165,20 @@ class GroupPoint(Joint):
     def reacts(self) -> bool:
         """Whether every line of its group has an axis, and no block lies on two of them."""
         blocks = [slide.link for slide in self.group.slides if not slide.turns]
-        return len({*blocks}) == len(blocks) and all(map(self.group.line, self.group.slides))
+        return len({*blocks}) == len(blocks) and all(map(self.group.way, self.group.slides))
+
+    @property
+    def driven_slide(self) -> Slide | None:
+        """How it slides where that is the input."""
+        own = self.group.driven_slide
+        line = self.group.way(own) if own and own.point == self.name else None
+        return line.guiding(self.name) if line else None
+
+    @property
+    def driven_between(self) -> tuple[str, str] | None:
+        """The ends of the cylinder that drives, of which it is the last."""
+        own = self.group.driven_slide
+        return self.group.between(own) if own and own.point == self.name else None
 
     @property
     def motor(self) -> tuple[str, str] | None:

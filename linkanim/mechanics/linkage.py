@@ -166,6 +166,16 @@ class Joint(Stated):
         return ()
 
     @property
+    def driven_slide(self) -> Slide | None:
+        """How it slides where the drive gives how far; None of other joints."""
+        return None
+
+    @property
+    def driven_between(self) -> tuple[str, str] | None:
+        """The ends of the cylinder whose length the drive gives, itself the last; None of other joints."""
+        return None
+
+    @property
     def motor(self) -> tuple[str, str] | None:
         """Of a motor at the joint, which moves itself: the link that it turns, and a joint of the other one.
 
@@ -693,6 +703,11 @@ class DrivenSlider(Guided):
 
     sized: ClassVar[tuple[str, ...]] = ("line",)
 
+    @property
+    def driven_slide(self) -> Slide:
+        """How it slides."""
+        return self.slides[0]
+
 
 # What moves a linkage, as data: a motor on its crank, a cylinder, a slider; and what tells where it is.
 
@@ -828,6 +843,21 @@ class Travel(Actuator):
     linkage_name: ClassVar[str | None] = to_say("slider")
 
 
+@frozen
+class Extension(Travel):
+    """A cylinder between two links: its length, which is the input, goes from `first` to `last` and back."""
+
+    between: tuple[str, str]
+
+    noun: ClassVar[str | None] = "cylinder"
+    moves: ClassVar[str] = "runs"
+
+    @property
+    def along(self) -> tuple[str, str]:
+        """The two joints whose distance it changes."""
+        return self.between
+
+
 MOTOR = Actuator()
 """What turns the crank itself."""
 
@@ -961,8 +991,8 @@ class Load(Stated):
 class Driven(NamedTuple):
     """What the drive moves: a crank about its pivot, a slider, or a link about one that moves itself.
 
-    `body` is the crank's body, None where no named body has the crank. Of a slider `body` is None and `pivot`
-    "". Towards `base` from the pivot the input's angle is 0; None where that is to the right.
+    `body` is the crank's body, None where no named body has the crank. Of a slider or a cylinder it is None,
+    and `pivot` "". Towards `base` from the pivot the input's angle is 0; None where that is to the right.
     """
 
     joint: Joint
@@ -1094,7 +1124,7 @@ class Linkage(Stated):
     def driven(self) -> Driven:
         """What the drive moves."""
         joint = self.by_name[self.drive.joint]
-        if isinstance(joint, DrivenSlider):
+        if not self.drive.coordinate.is_angle:
             return Driven(joint, "", None)
         if joint.motor is not None:
             link, base = joint.motor

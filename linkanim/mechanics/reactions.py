@@ -33,7 +33,7 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.forces import beside, idle, near_ends
-from linkanim.mechanics.groups import GroupLink, GroupPoint, GroupSlider, LinkGroup
+from linkanim.mechanics.groups import GroupLink, GroupPoint, GroupSlide, GroupSlider, LinkGroup
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,
@@ -530,10 +530,10 @@ def _held(
             for axis in ((1.0, 0.0), (0.0, 1.0)):
                 yield _at_pin(name, place, member, axis, rest, balance)
     for slide in group.slides:
-        line = group.line(slide)
-        assert line is not None
-        normal, place = _left(balance.along(line)[0]), balance.place(slide.point)
-        block, carrier = links[slide.link], links[slide.on]
+        along, place = _slid_along(slide, group, balance), balance.place(slide.point)
+        normal, block, carrier = _left(along), links[slide.link], links[slide.on]
+        if slide.name == group.driven:
+            yield _thrust(block, carrier, place, along, balance)
         if slide.turns:
             yield _at_pin(slide.point, place, carrier, normal, rest, balance)
             continue
@@ -550,6 +550,17 @@ def _held(
     if group.motor:
         one, other = (links[name] for name in group.motor.links)
         yield _couple(((other, 1.0), (one, -1.0)), "", balance)
+
+
+def _slid_along(slide: GroupSlide, group: LinkGroup, balance: _Balance) -> Vector:
+    """Return the direction along which something slides in a group, of length 1."""
+    if ends := group.between(slide):
+        x, y = between(balance.motion.position, ends)
+        length = size((x, y))
+        return over(x, length), over(y, length)
+    line = group.line(slide)
+    assert line is not None
+    return line_direction(balance.motion, line)
 
 
 def _at_pin(
@@ -586,6 +597,18 @@ def _guiding(
         _Unknown(((block, place, normal), (carrier, place, back)), (), push),
         _Unknown((), ((block, 1.0), (carrier, -1.0)), turn),
     )
+
+
+def _thrust(block: Member, carrier: Member, place: Vector, along: Vector, balance: _Balance) -> _Unknown:
+    """Return the force of what drives a block along its line."""
+    back = _scaled(along, -1.0)
+
+    def tell(found: Any) -> None:
+        balance.effort = found
+        balance.apply(block, place, _scaled(along, found))
+        balance.apply(carrier, place, _scaled(back, found))
+
+    return _Unknown(((block, place, along), (carrier, place, back)), (), tell)
 
 
 def _couple(shares: tuple[tuple[Member, float], ...], gear: str, balance: _Balance) -> _Unknown:

@@ -126,6 +126,8 @@ SOLVED_TO_ALL_DIGITS = 1e-30
 """What the next correction in 38 digits would be at the most, by the last two."""
 LIMIT_SOLVED = 1e-34
 """A correction of a limit, in 38 digits, below which it is found."""
+AT_LIMIT = 2.0**-50
+"""How far from a limit a stated end of the input may be, and be that limit, in lengths of the linkage."""
 ONE_CLOSURE = 1e-6
 """What two solutions from different starts differ by, and are one closure."""
 SAME_POSE = 1e-9

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.mechanics.measures import components, line_direction, loaded
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.quantities import force_order, indexed, link_labels
@@ -308,14 +307,15 @@ class Sliding:
 def motion_of(context: DrawContext) -> Turning | Sliding | None:
     """Return the mark of the input's motion: its bar's turning, or its slider's travel along the guide.
 
-    None where the input is neither a slider nor a crank on a pivot.
+    None where the input is neither a slider on the ground nor a crank on a pivot.
     """
     figure, view, gauge, theme = context.known
     joint, info = figure.linkage.driven.joint, figure.scene.info
     fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     ink = theme.ink, theme.background
-    if isinstance(joint, DrivenSlider):
-        along = complex(directions(-joint.line.angle))
+    slide = joint.driven_slide
+    if slide and slide.axis is None:
+        along = complex(directions(-slide.angle))
         return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
     pivot = getattr(joint, "pivot", None)
     if pivot is None:

@@ -8,7 +8,6 @@ from math import sin, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.picture.figure import Figure, figure
 from linkanim.scenes.scene import Scene
 
@@ -58,7 +57,7 @@ def _tried(shown: Figure) -> list[float]:
 
 def _off(shown: Figure, value: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return how far the input is from its usual place: in degrees, or for a slider in the scene's unit."""
-    if isinstance(shown.linkage.driven.joint, DrivenSlider):
+    if not shown.linkage.drive.coordinate.is_angle:
         return np.asarray(np.abs(value - (value.min() + value.max()) / 2))
     angle = np.degrees(value)
     low, high = angle.min(), angle.max()

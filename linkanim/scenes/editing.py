@@ -28,7 +28,7 @@ from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, LinkanimError, SceneError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import unit
-from linkanim.mechanics.linkage import Body, DrivenSlider, Joint, Line, Pin, Point, Rigid
+from linkanim.mechanics.linkage import Body, Joint, Line, Pin, Point, Rigid, Slide
 from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS
 from linkanim.scenes.form import LENGTHS, Field, Key, Measure, ValueType, fields_in
 from linkanim.scenes.reading import Check, scene_from
@@ -627,20 +627,28 @@ def _apart(scene: Scene, one: str, other: str) -> float:
 # Where a hand turns the input: towards a point of the scene, or along a direction.
 
 
+def _driven_along(slide: Slide, at: Mapping[str, complex]) -> complex:
+    """Return the direction of the line along which a driven joint slides, of length 1."""
+    turned = complex(*unit(slide.angle))
+    if slide.axis is None:
+        return turned
+    first, second = (at[name] for name in slide.axis)
+    return turned * (second - first) / abs(second - first)
+
+
 def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:
     """Return the phase near `phase` at which the input crank points at `point` (scene's unit).
 
-    A slider that drives comes as near to the point as its guide allows.
+    A slider that drives comes as near to the point as its guide allows, which may move, as it lies now.
 
     An input that swings stops at its limits. Of the two phases of an angle the nearer one is returned; past a
     limit, the one on the other way. A point on the pivot itself changes nothing.
     """
     mechanism, (driven, pivot, _, base) = scene.mechanism, scene.linkage.driven
-    if isinstance(driven, DrivenSlider):
-        start, (along, left) = scene.linkage.pin(driven.line.through).position, unit(driven.line.angle)
-        travel = (point[0] - start[0]) * along + (point[1] - start[1]) * left
-        return mechanism.phase_of(travel, phase)
     at = {name: complex(*place) for name, place in scene.pose(phase, 0).position.items()}
+    if slide := driven.driven_slide:
+        way = (complex(*point) - at[slide.line.through]) * _driven_along(slide, at).conjugate()
+        return mechanism.phase_of(way.real, phase)
     way = complex(*point) - at[pivot]
     if base is not None:
         way /= at[base] - at[pivot]
@@ -653,9 +661,10 @@ def phase_along(scene: Scene, phase: float, direction: complex) -> float:
     Limits are as in `phase_towards`. A slider that drives is put at the component of `direction`, of length 1
     at the most, along its guide: 0 is the middle of its travel, 1 its end.
     """
-    mechanism, driven = scene.mechanism, scene.linkage.driven.joint
-    if not isinstance(driven, DrivenSlider):
+    mechanism, slide = scene.mechanism, scene.linkage.driven.joint.driven_slide
+    if slide is None:
         return mechanism.phase_of(cmath.phase(direction), phase)
     low, high = scene.info.input_range
-    along = (direction * complex(*unit(driven.line.angle)).conjugate()).real
+    at = {name: complex(*place) for name, place in scene.pose(phase, 0).position.items()}
+    along = (direction * _driven_along(slide, at).conjugate()).real
     return mechanism.phase_of((low + high) / 2 + along * (high - low) / 2, phase)

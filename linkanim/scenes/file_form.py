@@ -35,6 +35,7 @@ from linkanim.mechanics.linkage import (
     Damper,
     Drive,
     DrivenSlider,
+    Extension,
     Gear,
     Joint,
     Line,
@@ -348,8 +349,20 @@ POSED = (
 MOTOR_OF_POINTS = (
     Field("links", _TWO_LINKS, "of points: what turns on what, where more than two links meet", None),
     Field("slide", NAME, "of points: the slide that drives", None),
-    Field("from", OFFSET, "of a driving slide: its travel at one end", None, label="Travel from"),
-    Field("to", OFFSET, "of a driving slide: its travel at the other end", None, label="Travel to"),
+    Field(
+        "from",
+        OFFSET,
+        "of a driving slide: its travel at one end; else to its limit",
+        None,
+        label="Travel from",
+    ),
+    Field(
+        "to",
+        OFFSET,
+        "of a driving slide: its travel at the other end; else to its limit",
+        None,
+        label="Travel to",
+    ),
 )
 """The keys of the input that only such a linkage has."""
 POSE_KEYS = tuple(one.key for one in POSED)
@@ -361,7 +374,7 @@ Values = Mapping[str, Any]
 
 CYLINDER = form(
     "a cylinder that drives",
-    Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
+    Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body; of points, any two"),
     Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
     Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
     Field("joint", NAME, "the crank that it turns", None),
@@ -435,7 +448,7 @@ def read_drive(top: Table, usual: str | None) -> Drive | None:
     for key in (one.key for one in MOTOR_OF_POINTS if one.key in top.table("drive")):
         raise top.table("drive").error(key, "goes with [points] and [links]; leave it out")
     joints = top.context.joints.values()
-    if "slider" in values or any(isinstance(joint, DrivenSlider) for joint in joints):
+    if "slider" in values or any(joint.driven_slide for joint in joints):
         return _slider_drive(top, values)
     table = top.table("drive")
     cylinder = values.get("cylinder")
@@ -476,7 +489,7 @@ def _phase_speed(table: Table, speed: float | TravelSpeed, actuator: Actuator) -
 def _slider_drive(top: Table, values: Values) -> Drive:
     """Return the drive of a slider: of the one joint that is declared by its line alone."""
     table, joints = top.table("drive"), top.context.joints
-    driven = [joint.name for joint in joints.values() if isinstance(joint, DrivenSlider)]
+    driven = [name for name, joint in joints.items() if joint.driven_slide]
     if "slider" not in values:
         way_out = f"drive it: [drive] slider = {{ joint = {shown(driven[0])}, from = 0, to = 100 }}"
         raise top.table("joints").table(driven[0]).wrong(f"has a line, but no bar that moves it; {way_out}")
@@ -488,7 +501,7 @@ def _slider_drive(top: Table, values: Values) -> Drive:
     if name not in driven:
         known = f"; that is {driven[0]}" if driven else ""
         raise slider.error("joint", f"is no slider that is declared by its line alone{known}")
-    inputs = [joint.name for joint in joints.values() if isinstance(joint, Crank | DrivenSlider)]
+    inputs = [*driven, *(joint.name for joint in joints.values() if isinstance(joint, Crank))]
     if len(inputs) > 1:
         other = next(joint for joint in inputs if joint != name)
         raise top.table("joints").wrong(
@@ -496,7 +509,8 @@ def _slider_drive(top: Table, values: Values) -> Drive:
         )
     if abs(travel["to"] - travel["from"]) < SHORTEST:
         raise slider.error("to", "is the same place as from, so nothing would move")
-    actuator = Travel(travel["from"], travel["to"])
+    ends, between = (travel["from"], travel["to"]), joints[name].driven_between
+    actuator = Extension(*ends, between) if between else Travel(*ends)
     speed = _phase_speed(table, values["speed"], actuator)
     return Drive(name, speed, actuator=actuator, retraced=values["returns"] == "same")
 

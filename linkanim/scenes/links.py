@@ -13,12 +13,11 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
-from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
 from linkanim.mechanics.groups import (
@@ -30,7 +29,7 @@ from linkanim.mechanics.groups import (
     GroupSlider,
     LinkGroup,
 )
-from linkanim.mechanics.linkage import RRP, RRR
+from linkanim.mechanics.linkage import RRP, RRR, Drive, Linkage, Pin, Travel
 from linkanim.scenes.file_form import (
     GROUND,
     MOTOR_OF_POINTS,
@@ -331,8 +330,6 @@ class _Dyads:
         self.turning: dict[str, _Geared] = {}
         self.motors: dict[str, dict[str, Any]] = {}
         """The further motors, each as its table."""
-        self.reason = ""
-        """Why a dyad could not be written, the first one."""
 
     def place(self, link: str) -> list[str]:
         """Return the points of a link that are known."""
@@ -508,10 +505,6 @@ class _Dyads:
                 self.blocks[link] = point
                 turned = in_degrees(math.remainder(slot.angle - guide.angle, math.tau))
                 return self.add(point, {"slide": {"pin": slot.point, "line": line, "slot": turned}})
-        self.reason = self.reason or (
-            f"slides.{slot.name}: {link} needs a point on its slot's line, which runs through {slot.point}; "
-            f"add one to [points] and to links.{link}"
-        )
         return False
 
     def line(self, on: str, angle: float, point: str) -> dict[str, Any] | None:
@@ -519,14 +512,13 @@ class _Dyads:
         axis = None if on == GROUND else self.axis(on)
         if on != GROUND and axis is None:
             return None
-        places, along = self.pose.places, rect(1.0, -angle)
-        aside = {name: ((places[point] - places[name]) * along).imag for name in self.place(on)}
-        # Rounding decides between none that are equally near.
-        through = min(aside, key=lambda name: round(abs(aside[name]) / self.pose.size, 9))
+        places = self.pose.places
+        through = nearest(places, self.place(on), places[point], angle)
+        aside = ((places[point] - places[through]) * rect(1.0, -angle)).imag
         base = phase(places[axis[1]] - places[axis[0]]) if axis else 0.0
         line: dict[str, Any] = {"on": [*axis]} if axis else {}
         turned = in_degrees(math.remainder(angle - base, math.tau) if axis else angle)
-        return {**line, "through": through, "angle": turned, **_offset(aside[through], self.pose.size)}
+        return {**line, "through": through, "angle": turned, **_offset(aside, self.pose.size)}
 
     def _refuse_flat(self, part: float, size: float, joints: tuple[str, ...]) -> None:
         """Refuse a pose at the limit of a dyad, from which its closure cannot be read."""
@@ -536,6 +528,14 @@ class _Dyads:
                 f"{listed} stand at a limit in this pose, which does not show how they are put together; "
                 "give the points in another pose"
             )
+
+
+def nearest(places: Mapping[str, complex], names: Iterable[str], place: complex, angle: float) -> str:
+    """Return the point that is nearest to a line: from it the travel along the line is counted."""
+    size = max(abs(one - place) for one in places.values())
+    aside = {name: ((place - places[name]) * rect(1.0, -angle)).imag for name in names}
+    # rounding decides between none that are equally near
+    return min(aside, key=lambda name: round(abs(aside[name]) / size, 9))
 
 
 def _offset(offset: float, size: float) -> dict[str, float]:
@@ -598,15 +598,22 @@ def _as_joints(
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
     group: tuple[GroupPoint, ...] = ()
+    if "cylinder" in drive and not _turns_crank(pose, drive):
+        return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]))
+    if "slide" in drive and not (slide := _driving(top, pose, drive["slide"])).other(GROUND):
+        return _by_length(top, pose, slide)
     if "slide" not in drive and (motor := _moving_motor(chain, drive)):
         driven = _by_moving_motor(chain, motor)
         group = _group(chain, motor)
         return AsJoints(_document(top, pose, chain, driven), group)
-    driven = _by_slide(chain, drive) if "slide" in drive else _by_motor(chain, drive)
+    driven = _by_slide(chain, slide) if "slide" in drive else _by_motor(chain, drive)
     while chain.grow():
         pass
     if not {*pose.places} <= chain.known:
-        _refuse_unfound(top, chain, drive)
+        if "slide" in drive:
+            return _by_length(top, pose, slide)
+        if "cylinder" in drive:
+            return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]))
         chain = _Dyads(top, pose)
         driven = _by_motor(chain, drive)
         while chain.points_of(next(iter(chain.turning))):
@@ -639,10 +646,12 @@ def _further_motors(
     return tuple(found)
 
 
-def _group(chain: _Dyads, motor: GroupMotor | None = None) -> tuple[GroupPoint, ...]:
-    """Return the joints of all links that the crank, or a motor between two of them, moves."""
+def _group(chain: _Dyads, motor: GroupMotor | None = None, slide: str = "") -> tuple[GroupPoint, ...]:
+    """Return the joints of all links that the crank, a motor between two of them, or a slide moves."""
     pose = chain.pose
-    if motor:
+    if slide:
+        crank, at = "", 0.0
+    elif motor:
         crank, at = "", _angle_between(pose, motor)
     else:
         crank, geared = next(iter(chain.turning.items()))
@@ -661,7 +670,7 @@ def _group(chain: _Dyads, motor: GroupMotor | None = None) -> tuple[GroupPoint, 
         GroupGear(gear.name, gear.links, gear.carrier, gear.ratio, bool(gear.motor)) for gear in pose.gears
     )
     points = tuple(name for name in _connected(chain) if name not in chain.known)
-    group = LinkGroup(at, crank, members, points, slides, gears, motor)
+    group = LinkGroup(at, crank, members, points, slides, gears, motor, slide)
     blocks = {slide.point: slide.link for slide in slides if not slide.turns and group.line(slide)}
     chain.blocks |= {link: point for point, link in blocks.items()}
     return tuple((GroupSlider if name in blocks else GroupPoint)(name, group) for name in points)
@@ -669,10 +678,13 @@ def _group(chain: _Dyads, motor: GroupMotor | None = None) -> tuple[GroupPoint, 
 
 def _group_slide(pose: PosedLinks, slide: PosedSlide) -> GroupSlide:
     """Return a slide with the link and the point that it leads."""
-    if slide.link and pose.links[slide.link]:
-        return GroupSlide(slide.name, slide.link, pose.links[slide.link][0], slide.on, slide.angle, False)
-    own = next(name for name in pose.at(slide.point) if name != slide.on)
-    return GroupSlide(slide.name, own, slide.point, slide.on, slide.angle, True)
+    turns = not (slide.link and pose.links[slide.link])
+    point = slide.point if turns else pose.links[slide.link][0]
+    own = next(name for name in pose.at(point) if name != slide.on) if turns else slide.link
+    start = pose.links[slide.on][0]
+    if slide.on == GROUND:
+        start = nearest(pose.places, pose.links[GROUND], pose.places[point], slide.angle)
+    return GroupSlide(slide.name, own, point, slide.on, start, slide.angle, turns)
 
 
 def _connected(chain: _Dyads) -> list[str]:
@@ -806,20 +818,75 @@ def _angle_between(pose: PosedLinks, motor: GroupMotor) -> float:
     return phase(second / first)
 
 
-def _by_slide(chain: _Dyads, drive: Mapping[str, Any]) -> dict[str, Any]:
-    """Add the driven slider; return the drive's table."""
-    table, pose = chain.top.table("drive"), chain.pose
+def _driving(top: Table, pose: PosedLinks, name: str) -> PosedSlide:
+    """Return the slide that drives; refuse one that is none, and what does not go with one."""
+    table = top.table("drive")
     for key in ("joint", "links", "start", "cylinder", "slider"):
         if key in table:
             raise table.error(key, "does not go with a slide that drives; leave it out")
-    slide = next((one for one in pose.slides if one.name == drive["slide"]), None)
+    slide = next((one for one in pose.slides if one.name == name), None)
     if slide is None:
         names = [one.name for one in pose.slides]
-        known = f"{meant(drive['slide'], names)}; there are {', '.join(names) or 'none'}"
+        known = f"{meant(name, names)}; there are {', '.join(names) or 'none'}"
         raise table.error("slide", f"is no slide{known}")
-    block = slide.other(GROUND)
-    if not block:
-        raise table.error("slide", "is no link that slides on the ground; only such a one can drive yet")
+    return slide
+
+
+def _turns_crank(pose: PosedLinks, drive: Mapping[str, Any]) -> bool:
+    """Tell whether a cylinder stands between a fixed point and a link that turns at the drive's joint.
+
+    Also where neither end moves, which is refused later.
+    """
+    ends, pivot = drive["cylinder"]["between"], drive.get("joint") or _usual_pivot(pose)
+    moving = [end for end in ends if end not in pose.links[GROUND]]
+    turning = [name for name in pose.at(pivot) if name != GROUND] if pivot in pose.links[GROUND] else []
+    return not moving or (len(moving) == 1 and any(moving[0] in pose.links[name] for name in turning))
+
+
+def _with_cylinder(top: Table, pose: PosedLinks, ends: tuple[str, str]) -> tuple[PosedLinks, PosedSlide]:
+    """Return the pose with a cylinder as a link about its first end, along which the other one slides."""
+    first, second = sorted(ends, key=lambda end: end not in pose.links[GROUND])
+    table, name = top.table("drive").table("cylinder"), "cylinder"
+    if {*pose.at(first)} & {*pose.at(second)}:
+        raise table.error("between", f"{first} and {second} are on one link, so nothing would move")
+    while name in pose.links or any(slide.name == name for slide in pose.slides):
+        name += "'"
+    slide = PosedSlide(name, name, phase(pose.places[second] - pose.places[first]), point=second)
+    links = {**pose.links, name: (first,)}
+    return pose._replace(links=links, slides=(*pose.slides, slide)), slide
+
+
+def _by_length(top: Table, pose: PosedLinks, slide: PosedSlide) -> AsJoints:
+    """Return the document of links that are solved together and driven by a slide, or a cylinder."""
+    chain, table = _Dyads(top, pose), top.table("drive")
+    if "start" in table:
+        raise table.error("start", "is that of a crank, but a length drives these links; leave it out")
+    group = _group(chain, slide=slide.name)
+    driven = next((one for one in group if one.driven_slide), None)
+    if driven is None:
+        way_out = f"give {slide.on} a second point, or let the slide's line run through its own"
+        raise table.error("slide", f"is on a link with one point, which shows no line; {way_out}")
+    stated = {key: value for key, value in table.values.items() if key not in (*_OWN, "cylinder", "start")}
+    written = table.table("cylinder").values if "cylinder" in table else table.values
+    ends = {key: written[key] for key in ("from", "to") if key in written}
+    if len(ends) < 2:
+        ends = dict(zip(("from", "to"), _limits(pose, group, driven), strict=True)) | ends
+    slider = {"slider": {"joint": driven.name, **ends}}
+    return AsJoints(_document(top, pose, chain, {**stated, **slider}), group)
+
+
+def _limits(pose: PosedLinks, group: tuple[GroupPoint, ...], driven: GroupPoint) -> tuple[float, float]:
+    """Return how far the length that drives a group can go."""
+    # Here, so that reading a scene file loads no arrays.
+    from linkanim.mechanics.closures import travel_range
+
+    pins = (Pin(name, (pose.places[name].real, pose.places[name].imag)) for name in pose.links[GROUND])
+    return travel_range(Linkage((*pins, *group), Drive(driven.name, 1.0, actuator=Travel(0.0, 1.0))))
+
+
+def _by_slide(chain: _Dyads, slide: PosedSlide) -> dict[str, Any]:
+    """Add the driven slider; return the drive's table."""
+    table, pose, block = chain.top.table("drive"), chain.pose, slide.other(GROUND)
     points = pose.links[block]
     pin = next((name for name in points if len(pose.at(name)) > 1), points[0])
     line = chain.line(GROUND, slide.angle, pin)
@@ -852,33 +919,3 @@ def _travel(chain: _Dyads, slider: dict[str, Any]) -> dict[str, Any]:
             return {"from": at.real + low, "to": at.real + high, **slider}
     table = chain.top.table("drive")
     raise table.wrong("needs the ends of its slide's travel; give from and to, such as from = 80, to = 160")
-
-
-def _refuse_unfound(top: Table, chain: _Dyads, drive: Mapping[str, Any]) -> None:
-    """Refuse what is found neither as a chain of dyads nor as a group behind a crank."""
-    pose = chain.pose
-    if "slide" not in drive and "cylinder" not in drive:
-        return
-    if chain.reason:
-        raise top.at(chain.reason, *chain.reason.partition(":")[0].split("."))
-    loose = [name for name in pose.links if not chain.stands(name)]
-    raise top.table("links").wrong(
-        f"{', '.join(loose)} can only be solved together, as a group of {len(loose)} links, which only a"
-        f" motor that turns can drive yet{_way_out(top, pose, drive)}"
-    )
-
-
-def _way_out(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> str:
-    """Say at which fixed points a motor would have the links follow one dyad after the other."""
-    found = []
-    for name in pose.links[GROUND]:
-        if len(pose.at(name)) == 2 and name != drive.get("joint"):
-            chain = _Dyads(top, pose)
-            try:
-                _by_motor(chain, {"joint": name})
-                while chain.grow():
-                    pass
-            except BadInput:
-                continue
-            found += [name] if {*pose.places} <= chain.known else []
-    return f"; with the motor at {' or '.join(found)} it is one" if found else ""

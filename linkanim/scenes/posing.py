@@ -7,7 +7,7 @@ a scene that has that form already keeps it.
 from __future__ import annotations
 
 import math
-from cmath import phase
+from cmath import phase, rect
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 from linkanim.errors import SceneError
 from linkanim.mechanics.linkage import Slide
 from linkanim.scenes.file_form import GROUND, SHORTHANDS
-from linkanim.scenes.links import in_degrees
+from linkanim.scenes.links import in_degrees, nearest
 from linkanim.scenes.scene import Scene
 
 _DROPPED = ("form", "joints", GROUND, "bodies", "drive", "drives", *SHORTHANDS)
@@ -160,7 +160,11 @@ class _PointForm:
         kept = {key: stated[key] for key in ("speed", "returns") if key in stated}
         driven = self.linkage.driven
         if not drive.coordinate.is_angle:
-            ends = dict(zip(("from", "to"), drive.actuator.stated_lengths, strict=True))
+            line, pins = driven.joint.slides[0].line, self.linkage.rigid_bodies[0]
+            start = nearest(self.at, pins, self.at[driven.joint.name], line.angle)
+            more = ((self.at[line.through] - self.at[start]) * rect(1.0, -line.angle)).real
+            lengths = (length + more for length in drive.actuator.stated_lengths)
+            ends = dict(zip(("from", "to"), lengths, strict=True))
             return {"slide": self.block(driven.joint.name), **ends, **kept}
         cylinder = {"cylinder": _without_joint(stated["cylinder"])} if "cylinder" in stated else {}
         links = [self.link_of(pin) for pin in (driven.pivot,)] + [

@@ -326,12 +326,12 @@ REFUSED = [
         "one body",
     ),
     (
-        "a cylinder on moving links",
+        "a cylinder that its links do not let be so short",
         FOUR_BAR.replace(
             'joint = "O2"', 'joint = "A"\ncylinder = { between = ["O2", "B"], from = 9, to = 10 }'
         ),
-        "drive.cylinder",
-        "turns coupler about a joint that moves",
+        "links",
+        "let the cylinder's length come to 61.3706 mm, not to 9 mm; choose another end",
     ),
     ("a motor at a point", FOUR_BAR.replace('joint = "O2"', 'joint = "P"'), "drive.joint", "alone"),
     (
@@ -351,9 +351,9 @@ REFUSED = [
     ),
     (
         "a group behind a cylinder",
-        STEPHENSON + 'cylinder = { between = ["A", "F"], from = 39, to = 41 }\n',
+        STEPHENSON + 'cylinder = { between = ["A", "F"], from = 39, to = 80 }\n',
         "links",
-        "which only a motor that turns can drive yet; with the motor at A or D it is one",
+        "let the cylinder's length come to",
     ),
     (
         "a group at a limit",

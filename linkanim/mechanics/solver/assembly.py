@@ -30,7 +30,7 @@ def assemble(linkage: Linkage) -> Assembly:
     scale = _scale(linkage)
     scaled = linkage if scale == 1.0 else linkage.scaled(scale)
     if group_of(scaled):
-        path, course = followed_course(scaled)
+        path, course = followed_course(scaled, 1.0 / scale)
         return Assembly(scaled, {}, path, {}, 1.0 / scale, course=course)
     loops = find_loops(scaled, gearings(scaled))
     return _named(

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import lru_cache
@@ -40,12 +41,14 @@ from linkanim.mechanics.solver.following import (
     Whole,
     fixed,
     followed,
+    followed_to,
     in_floats,
     system_of,
     units_of,
 )
-from linkanim.mechanics.solver.input import InputPath, InputState, Swing, Turn
-from linkanim.mechanics.tolerances import GUESSED, LIMIT_SOLVED, SOLVED_TO_ALL_DIGITS
+from linkanim.mechanics.solver.input import InputPath, InputState, Swing, TravelState, Turn
+from linkanim.mechanics.solver.strokes import SliderStroke, slider_stroke
+from linkanim.mechanics.tolerances import AT_LIMIT, GUESSED, LIMIT_SOLVED, SOLVED_TO_ALL_DIGITS
 
 # The limits of the closure that was followed, found in 38 digits.
 
@@ -114,30 +117,70 @@ class PathBranch(NamedTuple):
 
 
 class InputRoute(NamedTuple):
-    """The path of the input, and the branches of the closure on it: one, or one each way."""
+    """The path of the input, and the branches of the closure on it: one, or one each way.
+
+    Of an input that turns back `ends` are where it is at the phases 0 and π. `by_travel` its polynomials are
+    those of a travel instead of the phase: that from -π at one end to π at the other.
+    """
 
     path: InputPath
     branches: tuple[PathBranch, ...]
-    ends: tuple[Whole, Whole] | None = None
-    """The input at its lower and its upper limit."""
+    ends: tuple[int, int] | None = None
+    by_travel: bool = False
+
+    @property
+    def returns(self) -> bool:
+        """Whether the phases below zero have the poses of those above."""
+        return len(self.branches) == 1 and self.ends is not None and not self.by_travel
 
 
-def route_of(linkage: Linkage, system: LinkEquations, followed: Followed) -> InputRoute:
-    """Return the path of a linkage's input and its branches, from the closure that was followed."""
-    first, last = followed.places[0], followed.places[-1]
-    end = last.y + wrapped(first.y - last.y, system.links)
-    y = np.array([*(place.y for place in followed.places), end])
-    tangents = np.array([*(place.tangent for place in followed.places), first.tangent])
-    drive, group = linkage.drive, group_of(linkage)
+class LimitedPath(NamedTuple):
+    """A closed path of closures around a pose: from its lower limit up to the upper one, and on down.
+
+    All the way round there are so many `limits`, and the input has gone on by whole `turns`.
+    """
+
+    low: TurningPlace
+    high: TurningPlace
+    up: PathBranch
+    down: PathBranch
+    limits: int
+    turns: float
+
+
+def route_of(linkage: Linkage, system: LinkEquations, unscale: float) -> InputRoute:
+    """Return the path of a linkage's input and its branches; AssemblyError where it cannot be followed."""
+    if system.slides:
+        return _stroke_route(linkage, system, unscale)
+    circuit, drive, group = followed(system), linkage.drive, group_of(linkage)
     assert group is not None
-    if not followed.limits:
-        return InputRoute(Turn(drive.start, round(followed.change / math.tau)), (PathBranch(y, tangents),))
-    ends = [limit_beside(system, *_between(system, y, tangents, n)) for n in followed.limits]
-    (high, stop), (low, back), offset = (
-        (ends[0], followed.limits[0]),
-        (ends[-1], followed.limits[-1]),
-        end - y[0],
-    )
+    if not circuit.limits:
+        whole = PathBranch(*_closed(system, circuit))
+        return InputRoute(Turn(drive.start, round(circuit.change / math.tau)), (whole,))
+    around = limited(system, circuit)
+    both = around.limits == 2 and not around.turns and not drive.retraced
+    lower, upper = (_sum(limit.y[-1]) for limit in (around.low, around.high))
+    lower = lower - FULL_TURN.times(around.turns)
+    repeats = math.ceil(abs(float(upper - lower)) / math.tau)
+    swing = Swing(lower, upper, (group.points[0],) * 2, repeats, keeps=(not both,) * 2)
+    ends = int(lower.fraction * ONE), int(upper.fraction * ONE)
+    return InputRoute(swing, (around.up, around.down) if both else (around.up,), ends)
+
+
+def _closed(system: LinkEquations, circuit: Followed) -> tuple[Array, Array]:
+    """Return the unknowns and the directions of a closed path, which ends where it begins."""
+    first, last = circuit.places[0], circuit.places[-1]
+    end = last.y + wrapped(system, first.y - last.y)
+    y = np.array([*(place.y for place in circuit.places), end])
+    return y, np.array([*(place.tangent for place in circuit.places), first.tangent])
+
+
+def limited(system: LinkEquations, circuit: Followed) -> LimitedPath:
+    """Return the closed path around the pose that was followed, with the limits next to the pose."""
+    y, tangents = _closed(system, circuit)
+    offset = y[-1] - y[0]
+    ends = [limit_beside(system, *_between(y, tangents, n)) for n in circuit.limits]
+    (high, stop), (low, back) = (ends[0], circuit.limits[0]), (ends[-1], circuit.limits[-1])
     bottom, top = in_floats(low.y), in_floats(high.y)
     up = PathBranch(
         np.vstack([bottom - offset, y[back:-1] - offset, y[:stop], top]),
@@ -147,22 +190,75 @@ def route_of(linkage: Linkage, system: LinkEquations, followed: Followed) -> Inp
         np.vstack([top, y[stop:back], bottom]),
         np.vstack([high.tangent, tangents[stop:back], low.tangent]),
     )
-    both = len(ends) == 2 and abs(offset[-1]) < 1.0 and not drive.retraced
-    lower, upper = (_sum(limit.y[-1]) for limit in (low, high))
-    lower = lower - FULL_TURN.times(float(round(offset[-1] / math.tau)))
-    repeats = math.ceil(abs(float(upper - lower)) / math.tau)
-    swing = Swing(lower, upper, (group.points[0],) * 2, repeats, keeps=(not both,) * 2)
-    return InputRoute(swing, (up, down) if both else (up,))
+    turns = 0.0 if system.slides else float(round(offset[-1] / math.tau))
+    return LimitedPath(low, high, up, down, len(ends), turns)
 
 
-def wrapped(away: Array, links: int) -> Array:
+def _stroke_route(linkage: Linkage, system: LinkEquations, unscale: float) -> InputRoute:
+    """Return the path of a length that drives, as far as its ends are, and its branches.
+
+    Between ends that both are limits it comes back on the other closure, else the way that it went.
+    """
+    stroke, back = slider_stroke(linkage, unscale, None), linkage.drive.retraced
+    ends = [Fraction(end) * Fraction(system.shrunk) for end in sorted((stroke.first, stroke.last))]
+    ways = [_way_to(linkage, system, float(end), unscale) for end in ends]
+    (down, low), (up, high) = ways
+    exact = [
+        int(limit.y[-1]) if limit else int(end * ONE) for end, (_, limit) in zip(ends, ways, strict=True)
+    ]
+    turned = (exact[0], exact[1]) if stroke.first < stroke.last else (exact[1], exact[0])
+    branch = PathBranch(np.vstack([down.y[:0:-1], up.y]), np.vstack([-down.tangent[:0:-1], up.tangent]))
+    if low and high and not back:
+        around = limited(system, followed(system))
+        if around.limits == 2:
+            return InputRoute(stroke, (around.up, around.down), turned)
+    at_limit = low is not None or high is not None
+    kept = replace(stroke, keeps=(back or at_limit,) * 2)
+    return InputRoute(kept, (branch,), turned, by_travel=not at_limit)
+
+
+def _way_to(
+    linkage: Linkage, system: LinkEquations, end: float, unscale: float
+) -> tuple[PathBranch, TurningPlace | None]:
+    """Return the path from the pose to an end of the input, or beyond, and the limit where the end is one."""
+    places, turned = followed_to(system, end)
+    y, tangents = (np.array(part) for part in zip(*(place[:2] for place in places), strict=True))
+    if not turned:
+        return PathBranch(y, tangents), None
+    limit = limit_beside(system, *_between(y, tangents, len(y) - 1))
+    there = in_floats(limit.y)
+    y, tangents = np.vstack([y[:-1], there]), np.vstack([tangents[:-1], limit.tangent])
+    beyond = (end - there[-1]) * (1.0 if end > system.start[-1] else -1.0)
+    if beyond > AT_LIMIT:
+        actuator, unit = linkage.drive.actuator, linkage.unit
+        length = f"{actuator.noun}'s {'length' if actuator.along else 'travel'}"
+        most, stated = (place / system.shrunk * unscale for place in (float(there[-1]), end))
+        raise AssemblyError(
+            f"its links let the {length} come to {most:.6g} {unit}, not to {stated:g} {unit};"
+            " choose another end"
+        )
+    return PathBranch(y, tangents), limit if beyond > -AT_LIMIT else None
+
+
+def travel_range(linkage: Linkage) -> tuple[float, float]:
+    """Return the limits of a length that drives a group; AssemblyError where it has none."""
+    system = system_of(linkage)
+    circuit = followed(system)
+    if not circuit.limits:
+        raise AssemblyError("nothing stops its input; give it two ends, such as from = 80, to = 160")
+    around = limited(system, circuit)
+    low, high = (Fraction(limit.y[-1], ONE) / Fraction(system.shrunk) for limit in (around.low, around.high))
+    return float(low), float(high)
+
+
+def wrapped(system: LinkEquations, away: Array) -> Array:
     """Return a difference of unknowns with whole turns taken off its angles."""
-    away, turns = away.copy(), [*range(2, 3 * links, 3), len(away) - 1]
+    away, turns = away.copy(), system.turning
     away[turns] -= math.tau * np.rint(away[turns] / math.tau)
     return away
 
 
-def _between(system: LinkEquations, y: Array, tangents: Array, n: int) -> tuple[Array, Array]:
+def _between(y: Array, tangents: Array, n: int) -> tuple[Array, Array]:
     """Return about where, before the place n, the input's rate along the path is zero, and the direction."""
     before, after = tangents[n - 1][-1], tangents[n][-1]
     step = tangents[n - 1] @ (y[n] - y[n - 1])
@@ -195,11 +291,13 @@ _FINEST = 16
 class GroupMotion:
     """The motion of a group over its period: for each coordinate a table of each coefficient.
 
-    `bins` equal parts of the period, from minus half of it, each have a piece's number. `derived` points lie
+    `bins` equal parts of the period, from minus half of it, each have a piece's number. It is a period of the
+    phase or, `by_travel`, the way of a length from one end to the other. `derived` points lie
     on links with two points known: at their first plus ζ times the way to the second.
     """
 
     turns: int
+    by_travel: bool
     bins: int
     piece: LookUp
     centres: LookUp
@@ -213,16 +311,19 @@ class GroupMotion:
         return len(self.centres.values)
 
 
-def followed_course(linkage: Linkage) -> tuple[InputPath, GroupMotion]:
-    """Return the path of a linkage's input, and the course of its group; AssemblyError without one."""
+def followed_course(linkage: Linkage, unscale: float) -> tuple[InputPath, GroupMotion]:
+    """Return the path of a linkage's input, and the course of its group; AssemblyError without one.
+
+    Times `unscale` lengths are in the scene's unit.
+    """
     system = system_of(linkage)
-    route = route_of(linkage, system, followed(system))
+    route = route_of(linkage, system, unscale)
     group = group_of(linkage)
     assert group is not None
     placed, derived = carriers(linkage, group)
     period = route.path.turns if isinstance(route.path, Turn) else 1
     fitted = _Fit(system, route, period, placed).pieces()
-    return route.path, _course(fitted, period, derived, system.shrunk)
+    return route.path, _course(fitted, route, period, derived, system.shrunk)
 
 
 def carriers(
@@ -290,7 +391,7 @@ class _Fit:
         places = sum(len(branch.y) for branch in self.route.branches)
         depth = max(math.ceil(math.log2(places)) - 1, 3)
         waiting, pieces = [(depth, part) for part in range(1 << depth)], list[MotionPiece]()
-        if len(self.route.branches) == 1 and not isinstance(self.route.path, Turn):
+        if self.route.returns:
             waiting = [one for one in waiting if one[1] >= 1 << depth - 1]
         while waiting:
             fitted = self._fitted(waiting)
@@ -299,13 +400,10 @@ class _Fit:
                 if _is_close(piece):
                     pieces.append(piece)
                 elif piece.depth == _FINEST:
-                    raise AssemblyError(
-                        "its links come so near to a change point that no float tells their two closures"
-                        " apart; make one length longer or shorter"
-                    )
+                    raise AssemblyError(_TOO_NEAR[self.route.by_travel])
                 else:
                     waiting += [(piece.depth + 1, 2 * piece.part + n) for n in (0, 1)]
-        if len(self.route.branches) == 1 and not isinstance(self.route.path, Turn):
+        if self.route.returns:
             pieces += [_mirrored(piece) for piece in pieces]
         return self.names, sorted(pieces, key=lambda piece: piece.part / (1 << piece.depth))
 
@@ -372,8 +470,10 @@ class _Fit:
             span = 2 * self.period * PI_WHOLE
             # the branch begins at the pose
             return np.asarray((phases + first - begin) % span + begin, np.object_)
-        assert isinstance(path, Swing)
-        low, high = (int(end.fraction * ONE) for end in (path.low, path.high))
+        assert self.route.ends is not None
+        low, high = self.route.ends
+        if self.route.by_travel:
+            return np.asarray((low + high) // 2 + (high - low) * phases // (2 * PI_WHOLE), np.object_)
         cosine, _ = units_of(phases)
         return np.asarray((low + high) // 2 - ((high - low) // 2 * cosine >> BITS), np.object_)
 
@@ -458,8 +558,20 @@ def _mirrored(piece: MotionPiece) -> MotionPiece:
     return MotionPiece(piece.depth, (1 << piece.depth) - 1 - piece.part, piece.coefficients * signs)
 
 
+_TOO_NEAR = (
+    "its links come so near to a change point that no float tells their two closures apart; make one length"
+    " longer or shorter",
+    "its input ends so near to a limit that no float tells their distance; leave that end out, or choose one"
+    " farther from it",
+)
+
+
 def _course(
-    fitted: tuple[list[str], list[MotionPiece]], period: int, derived: Mapping[str, Any], shrunk: float
+    fitted: tuple[list[str], list[MotionPiece]],
+    route: InputRoute,
+    period: int,
+    derived: Mapping[str, Any],
+    shrunk: float,
 ) -> GroupMotion:
     names, pieces = fitted
     depth = max(piece.depth for piece in pieces)
@@ -476,14 +588,24 @@ def _course(
     }
     shares = LookUp([1.0 / one for one in halves])
     return GroupMotion(
-        period, 1 << depth, LookUp([*map(float, bins)]), LookUp(centres), shares, tables, derived
+        period,
+        route.by_travel,
+        1 << depth,
+        LookUp([*map(float, bins)]),
+        LookUp(centres),
+        shares,
+        tables,
+        derived,
     )
 
 
 def reader(course: GroupMotion, state: InputState, path: InputPath) -> Callable[[str], Moving]:
     """Return what reads a quantity of a course, with its rates, where the input is in a state."""
-    phase, rest, pace = _phase(state, path)
-    _, near = reduced(phase, rest, 2.0 * course.turns)
+    if course.by_travel:
+        near, pace = _gone(state, path)
+    else:
+        phase, rest, pace = _phase(state, path)
+        _, near = reduced(phase, rest, 2.0 * course.turns)
     half = course.turns * math.pi
     place = rint(near * (course.bins / (2 * half)) + (course.bins / 2 - 0.5))
     piece = course.piece.at(minimum(maximum(place, 0.0), course.bins - 1.0))
@@ -504,8 +626,20 @@ def reader(course: GroupMotion, state: InputState, path: InputPath) -> Callable[
     return read
 
 
+def _gone(state: InputState, path: InputPath) -> tuple[Value, Slope]:
+    """Return how far a length has gone, from -π at one end to π at the other, and its pace."""
+    assert isinstance(state, TravelState)
+    assert isinstance(path, SliderStroke)
+    travel, share = state.travel, 2 * math.pi / (path.last - path.first)
+    return (travel.value - (path.first + path.last) / 2) * share, Slope(travel.rate, travel.second).scaled(
+        share
+    )
+
+
 def _phase(state: InputState, path: InputPath) -> tuple[Value, Value, Slope]:
     """Return the phase of an input's state, what the float lacks of it, and its pace."""
+    if isinstance(state, TravelState):
+        return state.angle, 0.0, state.pace
     if isinstance(path, Turn):
         phase, rest = two_sum(state.angle, float(state.origin - exact_angle(path.start)))
         return phase, rest, Slope(state.rate, state.second)

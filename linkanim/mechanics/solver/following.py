@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from decimal import localcontext
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.groups import GROUND, LinkGroup, direction_of, group_of
+from linkanim.mechanics.groups import GROUND, GroupSlide, LinkGroup, direction_of, group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.precise import context, sides
 from linkanim.mechanics.program import Array
@@ -71,8 +71,8 @@ class GuidedTravel(NamedTuple):
 class LinkEquations:
     """The equations F(y) = 0 of a linkage with one input, lengths in the linkage's unit times `shrunk`.
 
-    y holds for each link x, y and ψ, then the travels, then the input u. Rows are the complex ones' real
-    parts, their imaginary parts, and the linear relations.
+    y holds for each link x, y and ψ, then the travels, then the input u: an angle, or a travel where it
+    `slides`. Rows are the complex ones' real parts, their imaginary parts, and the linear relations.
     """
 
     frames: tuple[LinkFrame, ...]
@@ -85,6 +85,12 @@ class LinkEquations:
     linear: tuple[Mapping[int, Fraction], ...]
     shrunk: float
     at: float
+    slides: bool = False
+
+    @property
+    def turning(self) -> list[int]:
+        """The numbers of the unknowns that are angles."""
+        return [*range(2, 3 * self.links, 3), *([] if self.slides else [self.size - 1])]
 
     @property
     def links(self) -> int:
@@ -465,17 +471,22 @@ class _Build:
         for name in dict.fromkeys(point for one in self.group.members for point in one.points):
             self._pin(name)
         for slide in self.group.slides:
-            self._slide(slide.link, slide.point, slide.on, slide.angle, slide.name)
+            self._slide(slide)
             if not slide.turns:
                 self._relation({slide.link: Fraction(1), slide.on: Fraction(-1)})
         for gear in self.group.gears:
             (first, second), ratio = gear.links, gear.ratio
             self._relation({second: Fraction(1), first: -ratio, gear.carrier: ratio - 1})
-        last = 3 * len(self.frames) + len(self.slots)
-        motor = self.group.motor
-        carrier, driven = motor.links if motor else (GROUND, self.group.crank)
-        self._relation({driven: Fraction(1), carrier: Fraction(-1)})
-        self.linear[-1] = {**self.linear[-1], last: Fraction(-1)}
+        last, at = 3 * len(self.frames) + len(self.slots), self.group.at
+        if self.group.driven:
+            slot = next(n for n, slot in enumerate(self.slots) if slot.name == self.group.driven)
+            at = self.slots[slot].travel
+            self.linear.append({3 * len(self.frames) + slot: Fraction(1), last: Fraction(-1)})
+        else:
+            motor = self.group.motor
+            carrier, driven = motor.links if motor else (GROUND, self.group.crank)
+            self._relation({driven: Fraction(1), carrier: Fraction(-1)})
+            self.linear[-1] = {**self.linear[-1], last: Fraction(-1)}
         return LinkEquations(
             self.frames,
             self.ground,
@@ -484,7 +495,8 @@ class _Build:
             tuple(self.slots),
             tuple(self.linear),
             shrunk,
-            self.group.at,
+            at,
+            bool(self.group.driven),
         )
 
     def _pin(self, name: str) -> None:
@@ -493,10 +505,10 @@ class _Build:
         first, *others = sorted(own, key=lambda link: -1 if link is None else link)
         self.terms += [((first, name, 1), (link, name, -1)) for link in others]
 
-    def _slide(self, link: str, point: str, on: str, angle: float, name: str) -> None:
+    def _slide(self, slide: GroupSlide) -> None:
         """Have a point of one link on a line of another."""
+        name, link, point, on, origin, angle, _ = slide
         slid, line = self.number[link], self.number[on]
-        origin = self.group.by_name[on].points[0]
         here = self._place(slid, point) - self._place(line, origin)
         direction = direction_of(angle)
         along = here * direction.conjugate()
@@ -535,11 +547,15 @@ _GROWN, _TRIES, _BOUNDED = 1.4, 4, 8
 
 
 class PathPlace(NamedTuple):
-    """A point of the closure's path, the direction in which it goes on, and how far it is certified."""
+    """A point of the closure's path, the direction in which it goes on, and how far it is certified.
+
+    The `box` is how far from the tangent, by unknowns, the path lies at the most; None across a change point.
+    """
 
     y: Array
     tangent: Array
     step: float
+    box: Array | None = None
 
 
 class Followed(NamedTuple):
@@ -573,28 +589,48 @@ def corrected_at_input(system: LinkEquations, y: Array) -> Array:
 def followed(system: LinkEquations) -> Followed:
     """Follow the closure from the pose until it is back; AssemblyError where it cannot be followed."""
     start = corrected_at_input(system, system.start)
-    direction = np.zeros(system.size)
-    direction[-1] = 1.0
-    places, limits, step = list[PathPlace](), list[int](), _FIRST
-    y = start
+    places, limits = list[PathPlace](), list[int]()
+    for place in _path(system, start, 1.0):
+        if places and place.tangent[-1] * places[-1].tangent[-1] < 0:
+            limits.append(len(places))
+        places.append(place)
+        if len(places) > 2 and (change := _back(system, place, start)) is not None:
+            if place.tangent[-1] < 0:
+                limits.append(len(places))
+            return Followed(tuple(places), change, tuple(limits))
+    raise AssemblyError("its links do not come back to their pose; hold those that slide without end")
+
+
+def followed_to(system: LinkEquations, end: float) -> tuple[list[PathPlace], bool]:
+    """Follow the closure from the pose until its input is at or beyond an end; tell whether it turned back.
+
+    Where it did it is followed to the first place behind that limit, which comes before the end.
+    """
+    start, places = corrected_at_input(system, system.start), list[PathPlace]()
+    sense = 1.0 if end > start[-1] else -1.0
+    for place in _path(system, start, sense):
+        turned = bool(places) and place.tangent[-1] * sense < 0
+        places.append(place)
+        if turned or (place.y[-1] - end) * sense >= 0:
+            return places, turned
+    raise AssemblyError("its links cannot be followed so far; choose nearer ends of the input")
+
+
+def _path(system: LinkEquations, y: Array, sense: float) -> Iterator[PathPlace]:
+    """Yield the places of the closure's path from a pose, from which the input first changes by `sense`."""
+    direction, step = np.zeros(system.size), _FIRST
+    direction[-1] = sense
     for _ in range(_MOST_STEPS):
         inverse = _inverse(system, y, direction)
         tangent = inverse[:, -1] / np.linalg.norm(inverse[:, -1])
-        if places and tangent[-1] * places[-1].tangent[-1] < 0:
-            limits.append(len(places))
         step, box = _certified(system, y, inverse, tangent, step * _GROWN)
         if step < NO_STEP:
             across, step = _crossed(system, y, tangent)
-            places.append(PathPlace(y, tangent, step))
+            yield PathPlace(y, tangent, step)
             y, direction = across, tangent
             continue
-        places.append(PathPlace(y, tangent, step))
-        if len(places) > 2 and (change := _back(y, tangent, step, box, start, system.links)) is not None:
-            if tangent[-1] < 0:
-                limits.append(len(places))
-            return Followed(tuple(places), change, tuple(limits))
+        yield PathPlace(y, tangent, step, box)
         y, direction = _corrected(system, y + step * tangent, inverse), tangent
-    raise AssemblyError("its links do not come back to their pose; hold those that slide without end")
 
 
 def _inverse(system: LinkEquations, y: Array, direction: Array) -> Array:
@@ -694,10 +730,12 @@ def _corrected(system: LinkEquations, y: Array, inverse: Array) -> Array:
     return y
 
 
-def _back(y: Array, tangent: Array, step: float, box: Array, start: Array, links: int) -> float | None:
-    """Return how far the input has gone if the start lies on the step from y, by its certified box."""
-    away = start - y
-    turns = [*range(2, 3 * links, 3), len(y) - 1]
+def _back(system: LinkEquations, place: PathPlace, start: Array) -> float | None:
+    """Return how far the input has gone if the start lies on the step from a place, by its certified box."""
+    y, tangent, step, box = place
+    if box is None:
+        return None
+    away, turns = start - y, system.turning
     away[turns] = np.remainder(away[turns] + math.pi, 2 * math.pi) - math.pi
     along = float(away @ tangent)
     off = np.abs(away - along * tangent) - box
