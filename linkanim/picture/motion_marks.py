@@ -494,10 +494,12 @@ def pulls(motion: Motion | Pose) -> Iterator[Pull]:
         yield Pull(indexed("P", load.name), place, value, load.on, carrier.slider or load.joint)
 
 
+_PLAIN = {0x2080 + n: str(n) for n in range(10)} | {ord(brace): None for brace in "{}"}
+
+
 def plain(symbol: str) -> str:
     """Return a symbol in letters and digits alone: r₂ as r2, v_{A} as v_A."""
-    lowered = {0x2080 + n: str(n) for n in range(10)}
-    return symbol.translate(lowered).replace("{", "").replace("}", "")
+    return symbol.translate(_PLAIN)
 
 
 def vector_of(symbol: str) -> str:

@@ -132,15 +132,18 @@ class Names:
 
     def captions(self, places: Places, setting: DrawSetting, heads: Sequence[complex] = ()) -> list[Caption]:
         """Return all labels in a pose; of those that arrowheads lie on, none."""
-        scale, reach, captions = setting.view.scale, 2.4 * setting.gauge.line, list[Caption]()
-        kept_off = np.array(heads, np.complex128)
-        for label in self.labels:
-            if label.anchor:
-                middle = label.anchor.middle(places, scale, label.size)
-                rect = _about(middle, label.size)
-                if not _is_on(rect, kept_off, reach):
-                    captions.append(_caption(label, middle, setting))
-        return captions
+        scale, reach = setting.view.scale, 2.4 * setting.gauge.line
+        placed = [
+            (label, label.anchor.middle(places, scale, label.size)) for label in self.labels if label.anchor
+        ]
+        covered = _are_on(
+            [_about(middle, label.size) for label, middle in placed], np.array(heads, np.complex128), reach
+        )
+        return [
+            _caption(label, middle, setting)
+            for (label, middle), covers in zip(placed, covered, strict=True)
+            if not covers
+        ]
 
     def leaders(self, places: Places, setting: DrawSetting) -> list[Layer]:
         """Return the lines from labels to what they name, in a still."""
@@ -188,21 +191,29 @@ class Names:
         seen = [
             (n, one) for n, kind in enumerate(kinds) for one in kind.seen(pose, setting.view, figure.moving)
         ]
-        long = [(n, one) for n, one in seen if abs(one.reach) >= _SHORTEST * line and one.of in self.ways]
+        long = [
+            (n, one, of)
+            for n, one in seen
+            if abs(one.reach) >= _SHORTEST * line and (of := one.of) in self.ways
+        ]
         captions: list[list[Caption]] = [[] for _ in kinds]
         if not long:
             return captions
-        labels = [_label(setting, one.symbol, line, "", one.of) for _, one in long]
+        labels = [_label(setting, one.symbol, line, "", of) for _, one, of in long]
         middles = [
-            self.ways[one.of].middle(one, label.size) for (_, one), label in zip(long, labels, strict=True)
+            self.ways[of].middle(one, label.size) for (_, one, of), label in zip(long, labels, strict=True)
         ]
         rects = [_about(middle, label.size) for middle, label in zip(middles, labels, strict=True)]
         busy, heads = [*taken], np.array([one.foot + one.reach for _, one in seen])
         pins = np.array([setting.view.pixel(pose.position[name]) for name in figure.pins])
-        head, pin, room = 2.4 * setting.gauge.line, setting.gauge.pin, setting.layout.stage
-        for (n, _), label, middle, rect in zip(long, labels, middles, rects, strict=True):
-            covers = _is_on(rect, heads, head) or _is_on(rect, pins, pin)
-            covers = covers or any(rect.meets(other) for other in busy)
+        covered = zip(
+            _are_on(rects, heads, 2.4 * setting.gauge.line),
+            _are_on(rects, pins, setting.gauge.pin),
+            strict=True,
+        )
+        room = setting.layout.stage
+        for (n, _, _), label, middle, rect, on in zip(long, labels, middles, rects, covered, strict=True):
+            covers = any(on) or any(rect.meets(other) for other in busy)
             inside = room.holds(rect.x, rect.y) and room.holds(rect.right, rect.bottom)
             if not covers and (inside or setting.look.framed):
                 busy.append(rect)
@@ -234,7 +245,7 @@ class Names:
             if (
                 inside
                 and not any(rect.meets(one) for one in busy)
-                and not _is_on(rect, pins, setting.gauge.pin)
+                and not _are_on([rect], pins, setting.gauge.pin)[0]
             ):
                 busy.append(rect)
                 captions.append(_caption(label, middle, setting))
@@ -265,11 +276,15 @@ def _bounds(points: Loop) -> Rect:
     return Rect(left, top, float(x.max()) - left, float(y.max()) - top)
 
 
-def _is_on(rect: Rect, points: Loop, reach: float) -> bool:
-    """Return whether any of some points is within a reach of a rectangle."""
-    x, y = np.abs(points.real - rect.middle.real), np.abs(points.imag - rect.middle.imag)
-    off = np.hypot(np.maximum(x - rect.width / 2, 0.0), np.maximum(y - rect.height / 2, 0.0))
-    return bool((off < reach).any())
+def _are_on(rects: Sequence[Rect], points: Loop, reach: float) -> list[bool]:
+    """Return for each rectangle whether any of some points is within a reach of it."""
+    if not (len(rects) and len(points)):
+        return [False] * len(rects)
+    middle = np.array([rect.middle for rect in rects], np.complex128)[:, None]
+    wide, high = (np.array(sides)[:, None] / 2 for sides in zip(*(rect[2:] for rect in rects), strict=True))
+    x, y = np.abs(points.real - middle.real), np.abs(points.imag - middle.imag)
+    off = np.hypot(np.maximum(x - wide, 0.0), np.maximum(y - high, 0.0))
+    return [bool(on.any()) for on in off < reach]
 
 
 def _leader(middle: complex, size: Size, foot: complex, bar: float) -> tuple[complex, complex]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
-from math import pi, sqrt
+from math import atan2, pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -51,7 +51,9 @@ def folded(turn: complex, fold: int) -> complex:
     It is rounded, far below what shows, so that a direction that recurs after parts of a turn is the same to
     the last digit.
     """
-    nearest = max((turn * alike for alike in _turns(fold)), key=lambda alike: alike.real)
+    turns, near = _turns(fold), round(atan2(-turn.imag, turn.real) / (2 * pi / fold))
+    beside = sorted((near + n) % fold for n in (-1, 0, 1))
+    nearest = max((turn * turns[n] for n in beside), key=lambda alike: alike.real)
     side = round(nearest.imag * _GRAIN) / _GRAIN
     return complex(sqrt(1.0 - side * side), side)
 
