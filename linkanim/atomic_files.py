@@ -58,7 +58,7 @@ def checked_target(
     """Return the path of a file that can be written.
 
     `BadInput` where `path` has none of the suffixes, is a folder or a name that Windows reserves, lies in a
-    folder that does not exist, is refused by `refuse_taken`, or is one of the `inputs`, the files that are
+    folder that does not exist, is refused by `refuse_blocked`, or is one of the `inputs`, the files that are
     read.
     """
     target = Path(path)
@@ -72,7 +72,7 @@ def checked_target(
         raise BadInput(f"{target}: Windows keeps {target.stem} for a device; choose another name")
     if not target.parent.is_dir():
         raise BadInput(f"{target}: there is no folder {target.parent}; make it first, or choose another")
-    refuse_taken(target)
+    refuse_blocked(target)
     refuse_input(target, inputs)
     return target
 
@@ -91,7 +91,7 @@ def _alike(one: Path, other: Path) -> bool:
     return str(one.resolve()).casefold() == str(other.resolve()).casefold()
 
 
-def refuse_taken(path: Path) -> None:
+def refuse_blocked(path: Path) -> None:
     """Refuse a name that belongs to something that a file must not replace.
 
     `BadInput` for a link, wherever it leads, a folder, a pipe, a device, and a read-only file, even for the
@@ -135,15 +135,15 @@ def replacing(target: Path) -> Iterator[Path]:
     """Give the path of a new file, which takes the target's name when the block ends well.
 
     It takes over the mode of an old file. If an exception ends the block, the new file is removed and an old
-    one stays as it was. `BadInput` as `refuse_taken`; `WorkFailed` where the system refuses.
+    one stays as it was. `BadInput` as `refuse_blocked`; `WorkFailed` where the system refuses.
     """
-    refuse_taken(target)
+    refuse_blocked(target)
     with scratch(target.parent, target) as folder:
         part = folder / "new"
         part.touch()
         yield part
         settle(part)
-        take_place(part, target)
+        replace_target(part, target)
 
 
 def write_text(target: Path, text: str, *, folders: bool = False) -> None:
@@ -165,12 +165,12 @@ def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
         part.write_bytes(content)
         settle(part)
         for name in chain([target], others):
-            if _taken(part, name):
+            if _named_if_free(part, name):
                 return name
         raise FileExistsError(EEXIST, os.strerror(EEXIST))
 
 
-def _taken(part: Path, target: Path) -> bool:
+def _named_if_free(part: Path, target: Path) -> bool:
     """Give the new file a name if that is free, in one step; return whether it was free."""
     try:
         target.hardlink_to(part)
@@ -258,9 +258,9 @@ def alone(target: Path) -> Iterator[None]:
         claim.release()
 
 
-def take_place(part: Path, target: Path) -> None:
-    """Rename a file to the target, with the mode and owner of an old one; `BadInput` as `refuse_taken`."""
-    refuse_taken(target)
+def replace_target(part: Path, target: Path) -> None:
+    """Rename a file to the target, with the mode and owner of an old one; `BadInput` as `refuse_blocked`."""
+    refuse_blocked(target)
     with suppress(FileNotFoundError):
         _look_like(part, target.stat())
     part.replace(target)
@@ -376,8 +376,8 @@ def _is_stale(part: Path) -> bool:
         os.close(lock)
 
 
-def _is_older(found: os.stat_result, seconds: float) -> bool:
-    return time.time() - found.st_mtime > seconds
+def _is_older(status: os.stat_result, seconds: float) -> bool:
+    return time.time() - status.st_mtime > seconds
 
 
 def _remove(path: Path) -> None:

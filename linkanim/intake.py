@@ -159,14 +159,14 @@ def control_in(text: str) -> str | None:
     characters, invisible signs (U+2060 to U+206F, tags): what a terminal obeys, no page may hold or no reader
     can see. Tabs and line breaks pass, and the joiners of letters and of emoji.
     """
-    found = re.search(_CONTROLS, text)
-    return f"the control character U+{ord(found[0]):04X}" if found else None
+    match = re.search(_CONTROLS, text)
+    return f"the control character U+{ord(match[0]):04X}" if match else None
 
 
 def unnameable(path: str) -> str | None:
     """Return why a path cannot be named in a file of ours, in words; None where it can."""
-    if found := control_in(path):
-        return f"has {found} in its name"
+    if control := control_in(path):
+        return f"has {control} in its name"
     if any(len(part.encode()) > _LONGEST_NAME for part in re.split(_PARTED, path)):
         return f"has a name of more than {_LONGEST_NAME} letters"
     return None if path.strip() else "has no name"
@@ -322,14 +322,14 @@ def refuse_controls(document: Section) -> None:
     pending: list[tuple[tuple[str, ...], Any]] = [((), document.values)]
     while pending:
         keys, value = pending.pop()
-        if isinstance(value, str) and (found := control_in(value)):
+        if isinstance(value, str) and (control := control_in(value)):
             place = ".".join(map(_written, keys))
-            raise document.at(f"{place} = {shown(value)}: has {found} in it; leave it out", *keys)
+            raise document.at(f"{place} = {shown(value)}: has {control} in it; leave it out", *keys)
         if isinstance(value, Mapping):
             for key in value:
-                if found := control_in(key):
+                if control := control_in(key):
                     place = ".".join(map(_written, (*keys, key)))
-                    raise document.at(f"{place}: has {found} in it; leave it out", *keys, key)
+                    raise document.at(f"{place}: has {control} in it; leave it out", *keys, key)
             pending += [((*keys, key), inner) for key, inner in value.items()]
         elif isinstance(value, list):
             start, last = keys[:-1], keys[-1] if keys else ""
@@ -403,7 +403,7 @@ def read_numbers(text: str, where: str, columns: str) -> NumberTable:
 
 def _lines(text: str, where: str) -> list[tuple[int, str]]:
     """Return the lines that hold anything, numbered."""
-    found = []
+    lines = []
     for number, line in enumerate(text.splitlines(), start=1):
         if control := control_in(line):
             raise BadInput(f"{where}: line {number} has {control} in it; save it as plain text")
@@ -413,11 +413,11 @@ def _lines(text: str, where: str) -> list[tuple[int, str]]:
             )
         bare = line.partition("#")[0].strip(" ")
         if bare.strip(" \t;,"):
-            found.append((number, bare))
-    if len(found) > MOST_ROWS_READ + 1:
-        count = f"{len(found):,} rows; {MOST_ROWS_READ:,} are the most that are read"
+            lines.append((number, bare))
+    if len(lines) > MOST_ROWS_READ + 1:
+        count = f"{len(lines):,} rows; {MOST_ROWS_READ:,} are the most that are read"
         raise BadInput(f"{where}: has {count}: keep every tenth or so")
-    return found
+    return lines
 
 
 def _form(lines: list[str]) -> tuple[str, bool]:

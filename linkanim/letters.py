@@ -62,7 +62,7 @@ LATEX = Setting(
 )
 
 
-def told(letters: str, by: Setting) -> str:
+def sentence_of(letters: str, by: Setting) -> str:
     """Return the sentence that names letters that are lacking, and the way out; "" where there are none."""
     if not letters:
         return ""

@@ -21,10 +21,10 @@ from linkanim.atomic_files import (
     checked_folder,
     checked_target,
     hold,
-    refuse_taken,
+    refuse_blocked,
+    replace_target,
     scratch,
     settle,
-    take_place,
 )
 from linkanim.atomic_files import replacing as replacing_any
 from linkanim.errors import BadInput, WorkFailed
@@ -62,16 +62,16 @@ class FileSet:
         path = self.list_path
         if not os.path.lexists(path):
             return {}
-        refuse_taken(path)
+        refuse_blocked(path)
         reason = f"is not {_LIST.noun}; move it away, or choose another folder"
         document = _LIST.json(path, str(path), reason)
         try:
             if document[_MARK] != VERSION:
                 raise ValueError
-            found = {name: frozenset(_SUM.findall(sums)) for name, sums in document["files"].items()}
+            sums_of = {name: frozenset(_SUM.findall(sums)) for name, sums in document["files"].items()}
         except (ValueError, TypeError, KeyError, AttributeError):
             raise BadInput(f"{path}: {reason}") from None
-        return {name: sums for name, sums in found.items() if re.fullmatch(self.pattern, name)}
+        return {name: sums for name, sums in sums_of.items() if re.fullmatch(self.pattern, name)}
 
     def note(self, name: str) -> None:
         """Know a file from now on as one that we wrote, unless the list cannot be written."""
@@ -81,7 +81,7 @@ class FileSet:
             _alone(self.folder),
         ):
             sums = {**self.sums(), name: frozenset([_sum(self.folder / name)])}
-            take_place(_write_list(room / "list", sums), self.list_path)
+            replace_target(_write_list(room / "list", sums), self.list_path)
 
     def refuse_foreign(
         self, names: Iterable[str], way_out: str = "move it away, or choose another name"
@@ -90,7 +90,7 @@ class FileSet:
         known = self.sums()
         for name in names:
             path = self.folder / name
-            refuse_taken(path)
+            refuse_blocked(path)
             if os.path.lexists(path) and not is_ours(path, known):
                 raise BadInput(f"{path} {_STRANGE[name in known]}; {way_out}")
 
@@ -157,9 +157,9 @@ def checked_output(
     way_out = "move it away, or give another name" if ours and named is not None else ""
     is_given = named is not None and not ours
     path = checked_target(named or usual, suffixes, inputs)
-    found = Output(path, is_given, path.stem == Path(usual).stem, way_out)
-    found.refuse_foreign()
-    return found
+    output = Output(path, is_given, path.stem == Path(usual).stem, way_out)
+    output.refuse_foreign()
+    return output
 
 
 def single(path: Path) -> FileSet:
@@ -170,7 +170,7 @@ def single(path: Path) -> FileSet:
 def is_ours(path: Path, known: Sums) -> bool:
     """Return whether a file is one that we wrote, and still what we wrote."""
     with suppress(OSError, BadInput):
-        refuse_taken(path)
+        refuse_blocked(path)
         return path.name in known and _sum(path) in known[path.name]
     return False
 
@@ -198,13 +198,13 @@ def replacing(
         sums = {path.name: frozenset([_sum(path)]) for path in sorted(new.iterdir())}
         if folder.is_dir():
             with _alone(folder):
-                _take_places(files, room, sums, others_go=others_go)
+                _replace_all(files, room, sums, others_go=others_go)
         else:
             _write_list(new / files.list_path.name, sums)
             new.rename(folder)
 
 
-def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> None:
+def _replace_all(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> None:
     """Put the new files in place, one by one, and remove others as asked; undo it all where one fails."""
     files.refuse_foreign(sums)
     before, old = files.sums(), room / "old"
@@ -217,10 +217,12 @@ def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> 
     kept = {path: _kept(path, old) for path in (*moves.values(), *gone) if path.exists()}
     try:
         for part, target in moves.items():
-            take_place(part, target)
+            replace_target(part, target)
         for path in gone:
             path.replace(old / path.name)
-        take_place(_write_list(room / "after", sums if others_go else {**before, **sums}), files.list_path)
+        replace_target(
+            _write_list(room / "after", sums if others_go else {**before, **sums}), files.list_path
+        )
     except BaseException:
         taken = [target for part, target in moves.items() if not part.exists()]
         for path in (*gone, *reversed(taken)):

@@ -40,15 +40,15 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     chart = made_folder(options.into) / CHART
     single(chart).refuse_foreign([CHART])
 
-    found = result.beside_recorded(result.run(progress))
+    measured = result.with_recorded(result.run(progress))
     form = result.as_json if options.json else result.as_markdown if options.markdown else result.as_text
-    print(form(found))
-    print(drawing.draw(found, chart), file=sys.stderr)
+    print(form(measured))
+    print(drawing.draw(measured, chart), file=sys.stderr)
 
 
-def require_extra(found: Callable[[str], object] = find_spec, needed: tuple[str, ...] = ()) -> None:
+def require_extra(find: Callable[[str], object] = find_spec, needed: tuple[str, ...] = ()) -> None:
     """Raise BadInput where a package of the extra is not installed, naming what installs it."""
-    missing = [name for name in needed or NEEDED if found(name) is None]
+    missing = [name for name in needed or NEEDED if find(name) is None]
     if missing:
         raise BadInput(
             f"bench works with {' and '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "

@@ -102,10 +102,10 @@ def different(count: int) -> Floats:
 def many_errors(inputs: Floats) -> Floats:
     """Return how far the rockers' pins are off, in longest links."""
     named = dict(zip(("crank", "coupler", "rocker"), inputs.T[:3], strict=True))
-    found = solve_many(FOUR_BAR.easy.scene, named, inputs[:, 3]).position["B"]
+    position = solve_many(FOUR_BAR.easy.scene, named, inputs[:, 3]).position["B"]
     errors = []
     with workdps(DIGITS):
-        for (crank, coupler, rocker, phase), at in zip(inputs.tolist(), found, strict=True):
+        for (crank, coupler, rocker, phase), at in zip(inputs.tolist(), position, strict=True):
             pin = mpf(crank) * mp.expj(mpf(phase))
             exact = crossing(pin, mpc(EASY[0]), mpf(coupler), mpf(rocker), 1)
             errors.append(float(abs(mpc(*at) - exact)) / max(*EASY[:1], crank, coupler, rocker))
@@ -146,13 +146,13 @@ def triad_scene() -> Scene:
 
 def triad_errors(inputs: Floats) -> Floats:
     """Return how far the triad's joints are off, in longest links."""
-    found = triad_scene().solve(phase=inputs[:, 0], derivatives=0).position
+    position = triad_scene().solve(phase=inputs[:, 0], derivatives=0).position
     errors = []
     with workdps(50):
         points = {name: mpc(*place) for name, place in TRIAD["points"].items()}
         lengths = [abs(points[p] - points[q]) for p, q in BARS]
         for n, phase in enumerate(inputs[:, 0].tolist()):
-            near = {name: mpc(*found[name][n]) for name in FREE}
+            near = {name: mpc(*position[name][n]) for name in FREE}
             turned = points["O"] + (points["A"] - points["O"]) * mp.expj(mpf(phase))
             exact = _closed({**points, "A": turned, **near}, lengths)
             errors.append(max(float(abs(exact[name] - near[name])) for name in FREE) / float(max(lengths)))
@@ -204,14 +204,14 @@ def laden_scene() -> Scene:
 def force_errors(inputs: Floats) -> Floats:
     """Return how far forces in joints are off, in the largest force of the instant."""
     reaction = laden_scene().solve(phase=inputs[:, 0], speed=1.0).reaction
-    found = [reaction[joint][body] for joint, body in (("A", "coupler"), ("B", "rocker"), ("O4", "rocker"))]
+    forces = [reaction[joint][body] for joint, body in (("A", "coupler"), ("B", "rocker"), ("O4", "rocker"))]
     errors = []
     with workdps(DIGITS):
         path = CasePath(replace(FOUR_BAR.easy, scene=laden_scene()))
         for n, phase in enumerate(inputs[:, 0].tolist()):
             exact = _forces([path.pose(mpf(phase) + k * STEP) for k in (-1, 0, 1)])
             largest = max(abs(force) for force in exact)
-            apart = [abs(mpc(*force[n]) - true) for force, true in zip(found, exact, strict=True)]
+            apart = [abs(mpc(*force[n]) - true) for force, true in zip(forces, exact, strict=True)]
             errors.append(float(max(apart) / largest))
     return np.array(errors)
 

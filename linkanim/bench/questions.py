@@ -138,7 +138,7 @@ def longest_of(linkage: Linkage) -> float:
     return max(*(length for joint in linkage.joints for _, length in joint.bars), *grounds)
 
 
-def placed(
+def joints_at(
     chain: DyadChain, angle: Any, close: Closing, exp: Callable[[Any], Any] = np.exp
 ) -> dict[str, Any]:
     """Return where the joints lie at an input's angle, dyads' as `close` gives them.
@@ -227,7 +227,7 @@ def degrees(first: int, last: int) -> Floats:
     return np.radians(np.arange(first, last, dtype=np.float64))
 
 
-def beside(inputs: Floats, *places: float) -> Floats:
+def with_neighbours(inputs: Floats, *places: float) -> Floats:
     """Return inputs with further ones on both sides of some places, at distances from 1e-2 to 1e-12."""
     steps = np.logspace(-2, -12, 11)
     added = [place + steps * side for place in places for side in (-1, 1)]
@@ -239,7 +239,7 @@ def turned(turns: float) -> Floats:
     return turns * TURN + degrees(0, 360)
 
 
-def towards(limit: float) -> Floats:
+def approaching(limit: float) -> Floats:
     """Return angles that approach a limit to 1e-12 rad, three to a decade."""
     return limit - np.logspace(-1, -12, 34)
 
@@ -298,8 +298,8 @@ def upright(crank: float, rod: float) -> Swing:
     return lambda mp: (-mp.asin(mp.mpf(rod) / crank), mp.asin(mp.mpf(rod) / crank))
 
 
-ONE_TURN = beside(degrees(90, 450), TURN / 2, TURN)
-TWO_TURNS = beside(degrees(90, 810), TURN / 2, TURN, 3 * TURN / 2, 2 * TURN)
+ONE_TURN = with_neighbours(degrees(90, 450), TURN / 2, TURN)
+TWO_TURNS = with_neighbours(degrees(90, 810), TURN / 2, TURN, 3 * TURN / 2, 2 * TURN)
 AT_BOTH = AT_LIMITS = {"B": (0.0, 1.0)}
 
 EASY: Lengths = (100.0, 30.0, 90.0, 80.0)
@@ -315,7 +315,7 @@ CHANGES: Lengths = (5.0, 2.0, 4.0, 3.0)
 def _limited(scene: Scene, limit: float, swing: Swing) -> tuple[Case, Case]:
     """Return two cases of a swinging input: towards a limit, and through both limits."""
     return (
-        Case("1e-12 rad before a toggle", scene, towards(limit), AT_LIMITS, swing),
+        Case("1e-12 rad before a toggle", scene, approaching(limit), AT_LIMITS, swing),
         Case("through two limits", scene, ONE_TURN, AT_LIMITS, swing, by_phase=True),
     )
 
@@ -348,7 +348,7 @@ FOUR_BAR = CaseSet(
     ),
 )
 
-QUARTERS = beside(degrees(0, 360), TURN / 4, 3 * TURN / 4)
+QUARTERS = with_neighbours(degrees(0, 360), TURN / 4, 3 * TURN / 4)
 
 SLIDER_CRANK = CaseSet(
     "slider-crank",

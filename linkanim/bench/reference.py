@@ -31,8 +31,8 @@ from linkanim.bench.questions import (
     TurnStep,
     chain_of,
     circle_dyad,
+    joints_at,
     longest_of,
-    placed,
 )
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRR
@@ -57,9 +57,9 @@ class Exact:
     high: Complexes
     low: Complexes
 
-    def distance(self, found: Any) -> Floats:
+    def distance(self, place: Any) -> Floats:
         """Return the distances of floats from these numbers, which are not rounded first."""
-        apart: Floats = np.abs((found - self.high) - self.low)
+        apart: Floats = np.abs((place - self.high) - self.low)
         return apart
 
 
@@ -184,19 +184,19 @@ class CasePath:
         """Return the places of all joints at a given angle or phase."""
         phase, (pins, steps) = self.phase(given), self._exact
         chain = DyadChain(pins, steps)
-        return placed(
+        return joints_at(
             chain, self.angle(given), lambda dyad, at: closed(dyad, at, self.side(dyad, phase)), mp.exp
         )
 
     def others(self, at: Pose) -> Pose:
         """Return the other closure of each dyad, with its ends in their places."""
-        found = {}
+        others = {}
         for step in self._exact[1]:
             if isinstance(step, RRR | SlideStep):
                 near, far = (closed(step, at, side) for side in (1, -1))
                 apart = [abs(place - at[step.name]) for place in (near, far)]
-                found[step.name] = near if apart[0] > apart[1] else far
-        return found
+                others[step.name] = near if apart[0] > apart[1] else far
+        return others
 
     def _place(self, value: complex) -> Any:
         return mpc(self._number(value.real), self._number(value.imag))
@@ -263,22 +263,22 @@ class Score:
         return self.error, self.velocity_error, self.acceleration_error
 
 
-def errors_of(found: Orders, answer: Answer) -> list[Floats]:
+def errors_of(orders: Orders, answer: Answer) -> list[Floats]:
     """Return the errors of the orders that are found at each pose: of the joint that is farthest off."""
     longest = answer.question.longest
     rates = [
         _farthest(places, exact) / np.maximum(_largest(exact), longest)
-        for places, exact in zip(found[1:], answer.orders[1:], strict=False)
+        for places, exact in zip(orders[1:], answer.orders[1:], strict=False)
     ]
-    return [_farthest(found[0], answer.orders[0]) / longest, *rates]
+    return [_farthest(orders[0], answer.orders[0]) / longest, *rates]
 
 
 def score(solve: Solve, answer: Answer) -> Score:
     """Return the score of a method's answer."""
     with np.errstate(all="ignore"):
-        found = solve(answer.question)
-        error, *rates = errors_of(found, answer)
-        wrong, missing = _elsewhere(found[0], answer), ~np.isfinite(error)
+        solved = solve(answer.question)
+        error, *rates = errors_of(solved, answer)
+        wrong, missing = _elsewhere(solved[0], answer), ~np.isfinite(error)
         right = ~wrong & ~missing
     worst = [_worst(one, right) for one in (error, *rates)]
     position, velocity, acceleration, *_ = (*(largest for largest, _ in worst), np.nan, np.nan)
@@ -305,21 +305,21 @@ def _worst(errors: Floats, right: Any) -> tuple[float, int]:
     return float(kept.max()), int(kept.argmax())
 
 
-def _farthest(found: Places, exact: Mapping[str, Exact]) -> Floats:
-    return np.max([place.distance(found[name]) for name, place in exact.items()], axis=0)  # type: ignore[no-any-return]
+def _farthest(places: Places, exact: Mapping[str, Exact]) -> Floats:
+    return np.max([place.distance(places[name]) for name, place in exact.items()], axis=0)  # type: ignore[no-any-return]
 
 
 def _largest(exact: Mapping[str, Exact]) -> Floats:
     return np.max([np.abs(place.high) for place in exact.values()], axis=0)  # type: ignore[no-any-return]
 
 
-def _elsewhere(found: Places, answer: Answer) -> Any:
+def _elsewhere(places: Places, answer: Answer) -> Any:
     """Return which poses are on another closure than the right one, as a mask."""
     here, apart = answer.orders[0], APART * answer.question.longest
     return np.any(
         [
             (np.abs(other - here[name].high) > apart)
-            & (2 * np.abs(found[name] - other) < here[name].distance(found[name]))
+            & (2 * np.abs(places[name] - other) < here[name].distance(places[name]))
             for name, other in answer.other.items()
         ],
         axis=0,

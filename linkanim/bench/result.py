@@ -175,14 +175,14 @@ def run(
     work = _work([row for _, methods in entered for row in methods])
     work |= {("", one.name, 0): one.timed for one in more}
     times = nanoseconds(work, budget=BUDGET, progress=progress)
-    found = tuple(
+    measured_rows = tuple(
         _row(entry, times, scores[entry.solve])
         for mechanism, methods in entered
         for scores in [_scores(mechanism, methods)]
         for entry in methods
     )
     told = tuple(_further(one, times["", one.name, 0]) for one in more)
-    return Result(this_machine(), found, date.today(), told)
+    return Result(this_machine(), measured_rows, date.today(), told)
 
 
 def _further(work: FurtherWork, nanos: float) -> FurtherMeasured:
@@ -240,7 +240,7 @@ RECORDED = "recorded"
 _OURS = ("linkanim", "synthesis")
 
 
-def beside_recorded(result: Result) -> Result:
+def with_recorded(result: Result) -> Result:
     """Return a result of this solver with the rows that the manual's table has of other methods."""
     page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
     table = page.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0]
@@ -263,7 +263,7 @@ def _recorded(mechanism: str, name: str, cells: Sequence[str], poses: tuple[int,
         for cell in cells[2:4]
     ]
     wrong, missing = (int(cell.replace(",", "")) for cell in cells[4:])
-    easy, hard = ([*found, math.nan, math.nan, math.nan] for found in errors)
+    easy, hard = ([*measured, math.nan, math.nan, math.nan] for measured in errors)
     scores = (
         Score(poses[0], easy[0], easy[1], easy[2], 0, 0),
         Score(poses[1], hard[0], hard[1], hard[2], wrong, missing),
@@ -309,8 +309,8 @@ def again(name: str, numbers: Sequence[float]) -> str:
     if name in more:
         (error,) = more[name].errors(np.array([numbers])).tolist()
         return f"error {error:.2e}"
-    found = score(batch, answer(replace(cases[name], inputs=np.array(numbers))))
-    return ", ".join(f"{what} {error:.2e}" for what, error in zip(ORDERS, found.errors, strict=True))
+    scored = score(batch, answer(replace(cases[name], inputs=np.array(numbers))))
+    return ", ".join(f"{what} {error:.2e}" for what, error in zip(ORDERS, scored.errors, strict=True))
 
 
 # A result as a table for the terminal or the manual, and as JSON.
@@ -397,5 +397,5 @@ def as_json(result: Result) -> str:
     """Return one JSON object: the machine, and the rows with every case; null for a missing number."""
     further = [asdict(row) for row in result.further]
     rows = [asdict(row) for row in result.rows]
-    found = {"machine": result.machine._asdict(), "rows": rows, "further": further}
-    return json_text(found, indent=2)
+    document = {"machine": result.machine._asdict(), "rows": rows, "further": further}
+    return json_text(document, indent=2)

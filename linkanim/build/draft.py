@@ -188,22 +188,22 @@ def renamed(draft: Draft, kind: str, old: str, new: str) -> Draft:
             return f"{new if through == old else through}{within}{bars.get(bar, bar)}"
         return new if name == old and kind in OWN else name
 
-    def told(value: Any, key: str) -> Any:
+    def plain(value: Any, key: str) -> Any:
         if isinstance(value, Mapping):
-            return {under: told(one, under) for under, one in value.items()}
+            return {under: plain(one, under) for under, one in value.items()}
         if isinstance(value, list | tuple):
-            return [told(one, key) for one in value]
+            return [plain(one, key) for one in value]
         if key in _JOINTS:
             return new if value == old else value
         return bars.get(value, value) if key == "bar" else value
 
     tables = {
-        kind: {called(kind, name): told(table, "at") for name, table in every.items()}
+        kind: {called(kind, name): plain(table, "at") for name, table in every.items()}
         for kind, every in draft.tables.items()
     }
     places = {new if name == old else name: place for name, place in draft.places.items()}
     typed = frozenset((key[0], called(str(key[0]), str(key[1])), *key[2:]) for key in draft.typed)
-    rest = {**draft.rest, **({"trace": told(draft.rest["trace"], "at")} if "trace" in draft.rest else {})}
+    rest = {**draft.rest, **({"trace": plain(draft.rest["trace"], "at")} if "trace" in draft.rest else {})}
     return replace(draft, places=places, tables=tables, typed=typed, rest=rest)
 
 

@@ -80,12 +80,12 @@ def assembled(draft: Draft) -> Draft | None:
 
     The driven crank stays where it is drawn, or where its start angle is typed, if the others can follow.
     """
-    crank = _crank_place(draft)
+    crank = _crank_end(draft)
     held = _assembled(draft.placing(*crank), {crank[0]}) if crank else None
     return held or _assembled(draft, set())
 
 
-def _crank_place(draft: Draft) -> tuple[str, complex] | None:
+def _crank_end(draft: Draft) -> tuple[str, complex] | None:
     """Return the end of the driven crank, and where it is; None where something else drives."""
     joint = draft.driven
     pivot = crank_of(draft, joint) if joint and not draft.drive.keys() & {"slider", "cylinder"} else None
@@ -103,12 +103,12 @@ def _assembled(draft: Draft, held: set[str]) -> Draft | None:
     places = {name: complex(*place) / size for name, place in draft.places.items()}
     free = [name for name in draft.places if name not in draft.of("pins") and name not in held]
     for _ in range(_STEPS):
-        found = [*_constraints(draft, places, size)]
-        off = np.array([value for _, value in found])
+        constraints = [*_constraints(draft, places, size)]
+        off = np.array([value for _, value in constraints])
         if not len(off) or abs(off).max() <= _EXACT:
             whole = {name: as_point(place * size) for name, place in places.items() if name in free}
             return replace(draft, places={**draft.places, **whole})
-        rows = np.array([[row.get(name, 0j) for name in free] for row, _ in found])
+        rows = np.array([[row.get(name, 0j) for name in free] for row, _ in constraints])
         step = np.linalg.lstsq(np.hstack([rows.real, rows.imag]), -off, rcond=_RANK)[0]
         step *= min(1.0, _LONGEST_STEP / (abs(step).max() or 1.0))
         for n, name in enumerate(free):

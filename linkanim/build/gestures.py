@@ -198,8 +198,8 @@ def driven(
 ) -> Building:
     """Return the building with the first of some drives by which the draft moves; else with the first."""
     drafts = [draft.having(*DRIVE, table) for table in drives]
-    found = next((one for one in drafts if not drafts[1:] or made(one).scene), drafts[0])
-    return changed(building, found, chosen, sentence)
+    driven_draft = next((one for one in drafts if not drafts[1:] or made(one).scene), drafts[0])
+    return changed(building, driven_draft, chosen, sentence)
 
 
 def lay_photo(building: Building, file: str, x: float, y: float, width: float) -> Building:
@@ -380,36 +380,36 @@ def drives(building: Building, *, here: bool = False) -> Iterator[tuple[str, Bui
     Of a ground pin that is a bar on it; of a joint that moves the bar from a ground pin, a slider, or a motor
     between two bars. Where a further motor makes it move, that comes first.
     """
-    draft, thing, found = building.draft, building.chosen, list[tuple[str, Building]]()
+    draft, thing, drafts = building.draft, building.chosen, list[tuple[str, Building]]()
     for joint in _drivable(draft, thing):
         bare = draft.having("gears", joint, None).having("drives", joint, None)
         if joint in draft.of("sliders"):
             slides = _slider_drives(draft, joint)
-            found.append((f"{joint} slides", driven(building, bare, slides, thing, f"{joint} is driven")))
+            drafts.append((f"{joint} slides", driven(building, bare, slides, thing, f"{joint} is driven")))
             continue
         pivot = str(crank_of(draft, joint))
         table = crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
         one = driven(building, bare, [table], thing, f"{joint} is driven")
-        found.append((f"{joint} turns about {pivot}", one))
+        drafts.append((f"{joint} turns about {pivot}", one))
         cranked = draft.driven and not draft.drive.keys() & {"cylinder", "slider"}
         if cranked and joint != draft.driven and mobility(bare) > 1 + len(bare.of("drives")):
             words = f"{joint} has a motor, too"
             further = {"speed": table["speed"], "start": table["start"]}
             more = changed(building, bare.having("drives", joint, further), thing, words)
-            place = 0 if more.made.scene else len(found)
-            found.insert(place, (f"{joint} turns about {pivot}, too", more))
+            place = 0 if more.made.scene else len(drafts)
+            drafts.insert(place, (f"{joint} turns about {pivot}, too", more))
     kind, name = thing or ("", "")
-    first = len(found) if kind == JOINT and name not in (*draft.of("pins"), *draft.of("sliders")) else 0
+    first = len(drafts) if kind == JOINT and name not in (*draft.of("pins"), *draft.of("sliders")) else 0
     for pivot, arms in _moving_motors(draft, thing):
         speed = draft.drive.get("speed", SPEED)
         table = {"motor": {"pivot": pivot, "between": [*arms]}, "speed": speed}
         own, turned = (draft.body_of([pivot, arm]) or f"{pivot}–{arm}" for arm in arms)
         words = f"link {turned} turns on link {own} at {pivot}"
-        found.append((words, driven(building, draft, [table], thing, f"The motor is at {pivot}")))
-    if not found:
+        drafts.append((words, driven(building, draft, [table], thing, f"The motor is at {pivot}")))
+    if not drafts:
         why = "Choose a crank (a bar on a ground pin), a slider, or a joint of two bars to drive it"
-        found.append(("", refused(building, why)))
-    yield from found[first:] + found[:first] if here else found
+        drafts.append(("", refused(building, why)))
+    yield from drafts[first:] + drafts[:first] if here else drafts
 
 
 def motor(building: Building, x: float, y: float, *, reach: float) -> Building:

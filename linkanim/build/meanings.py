@@ -69,12 +69,12 @@ def meanings(
     start = under(building.draft, x, y, reach)
     end = _let_go_on(building.draft, start, to_x, to_y, reach)
     made = Drag(tool, start, end, complex(x, y), complex(to_x, to_y), reach, snap)
-    found = list(_READ.get(tool, _one)(building, made))
+    readings = list(_READ.get(tool, _one)(building, made))
     several: list[Meaning] = []
-    for one in found:
+    for one in readings:
         known = [building.draft, *(other.building.draft for other in several)]
         several += [one] if one.building.draft not in known else []
-    return tuple(several or found[:1])
+    return tuple(several or readings[:1])
 
 
 def _let_go_on(draft: Draft, start: Thing | None, x: float, y: float, reach: float) -> Thing | None:

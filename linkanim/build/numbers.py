@@ -53,8 +53,8 @@ def _posed(draft: Draft, scene: Scene, phase: float) -> Draft:
 
 
 def _makes(draft: Draft, scene: Scene) -> bool:
-    found = made(draft).scene
-    return found is not None and found.linkage == scene.linkage and found.trace == scene.trace
+    made_scene = made(draft).scene
+    return made_scene is not None and made_scene.linkage == scene.linkage and made_scene.trace == scene.trace
 
 
 def _patched(draft: Draft, before: Draft, after: Draft) -> Draft | None:
@@ -67,12 +67,12 @@ def _patched(draft: Draft, before: Draft, after: Draft) -> Draft | None:
             own = _own_name(draft, after, kind, name)
             if own is None:
                 return None
-            draft = draft.having(kind, own, _told(draft.of(kind).get(own), old, table))
+            draft = draft.having(kind, own, _merged(draft.of(kind).get(own), old, table))
     rest = {key: value for key, value in after.rest.items() if value != before.rest.get(key)}
     return replace(draft, rest={**draft.rest, **rest}, short=after.short if draft.short else draft.short)
 
 
-def _told(own: Any, old: Any, new: Any) -> Any:
+def _merged(own: Any, old: Any, new: Any) -> Any:
     """Return the draft's own table with the differences of two others."""
     if not (isinstance(own, Mapping) and isinstance(new, Mapping)):
         return new
@@ -159,10 +159,10 @@ class PlacedRow(NamedTuple):
 
 def rows_of_all(draft: Draft) -> tuple[PlacedRow, ...]:
     """Return all stated numbers of a draft, each only once, with the thing that is drawn for it."""
-    found: dict[Key, PlacedRow] = {}
+    rows: dict[Key, PlacedRow] = {}
     for one in _every_row(draft):
-        found.setdefault(one.row.key, one)
-    return tuple(found.values())
+        rows.setdefault(one.row.key, one)
+    return tuple(rows.values())
 
 
 def chosen_row(building: Building) -> int | None:

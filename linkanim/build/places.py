@@ -1,6 +1,6 @@
 """Places and numbers: which dyad each joint is, its numbers from its place, and its place from its numbers.
 
-`found` puts the joints in order, each in the terms of a scene file: how it is found from those before it.
+`solvable_joints` puts joints in order, each in the terms of a scene file: how it is found from those before.
 From there numbers follow from places, rounded as a person would write them, and places from numbers. `drawn`
 returns the shapes of a draft that does not move yet.
 """
@@ -70,11 +70,11 @@ def _multiple(value: float, step: float) -> float:
 
 # The dyads of a drawing: each joint as a scene file says how it is found from joints before it.
 
-Found = Mapping[str, Mapping[str, Any]]
+JointTables = Mapping[str, Mapping[str, Any]]
 """Tables of joints by their names, in solvable order."""
 
 
-def found(draft: Draft) -> dict[str, dict[str, Any]]:
+def solvable_joints(draft: Draft) -> dict[str, dict[str, Any]]:
     """Return how each joint is found, as [joints] of a scene file; joints that cannot be found are left out.
 
     A joint is found by the first possible one of: the drive or a gear, its body, a slot, a guide, two bars.
@@ -83,9 +83,7 @@ def found(draft: Draft) -> dict[str, dict[str, Any]]:
     tables: dict[str, dict[str, Any]] = {}
     known, plates = set(draft.of("pins")), plates_of(draft)
     waiting = [name for name in draft.places if name not in known]
-    while table := next(
-        ((name, found) for name in waiting for found in _ways(draft, name, known, plates)), None
-    ):
+    while table := next(((name, way) for name in waiting for way in _ways(draft, name, known, plates)), None):
         name, tables[table[0]] = table[0], table[1]
         known.add(name)
         waiting.remove(name)
@@ -94,7 +92,7 @@ def found(draft: Draft) -> dict[str, dict[str, Any]]:
 
 def sides(draft: Draft) -> dict[str, dict[str, Any]]:
     """Return the closures of a draft's dyads: the joints of each dyad, and the closure's name."""
-    tables = ((name, table) for name, table in found(draft).items() if "side" in table)
+    tables = ((name, table) for name, table in solvable_joints(draft).items() if "side" in table)
     return {name: {"joints": ends_of(table), "side": table["side"]} for name, table in tables}
 
 

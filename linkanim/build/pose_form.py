@@ -32,19 +32,19 @@ _TABLES = ("points", "links", "slides", "gears", "lengths", "drive", "drives", "
 
 def bodies_of(draft: Draft) -> list[list[str]]:
     """Return the joints of each rigid body but the ground, in the order in which it was drawn."""
-    found = [list(table["joints"]) for table in draft.of("bars").values()]
+    bodies = [list(table["joints"]) for table in draft.of("bars").values()]
     waiting = dict(draft.of("points"))
     while True:
-        ready = {name: body for name, one in waiting.items() for body in found if {*one["on"]} <= {*body}}
+        ready = {name: body for name, one in waiting.items() for body in bodies if {*one["on"]} <= {*body}}
         for name, body in ready.items():
             body += [name] if name not in body else []
             del waiting[name]
-        first, *others = next(_rigid(found), [[]])
+        first, *others = next(_rigid(bodies), [[]])
         if not others and not ready:
-            return found
+            return bodies
         for other in others:
             first[:] = dict.fromkeys((*first, *other))
-            found = [body for body in found if body is not other]
+            bodies = [body for body in bodies if body is not other]
 
 
 def _rigid(bodies: list[list[str]]) -> Iterator[list[list[str]]]:
@@ -124,23 +124,23 @@ class _Links:
 
 def posed_tables(draft: Draft) -> dict[str, Any]:
     """Return the tables of a scene file with points and links; BadInput where its lengths cannot be."""
-    found = assembled(draft)
-    if found is None:
+    pose = assembled(draft)
+    if pose is None:
         raise BadInput("The bars cannot all meet: no pose near the drawing has all their lengths")
-    links = _Links(found)
+    links = _Links(pose)
     lengths: dict[str, dict[str, Any]] = {}
-    for table in found.of("bars").values():
+    for table in pose.of("bars").values():
         first, second = table["joints"]
         lengths.setdefault(links.of(first, second), {})[f"{first}-{second}"] = table["length"]
     tables = {
-        "points": {name: found.of("pins").get(name, [*place]) for name, place in found.places.items()},
+        "points": {name: pose.of("pins").get(name, [*place]) for name, place in pose.places.items()},
         "links": links.named,
         "slides": links.slides,
-        "gears": {name: _gear(found, links, name, table) for name, table in found.of("gears").items()},
+        "gears": {name: _gear(pose, links, name, table) for name, table in pose.of("gears").items()},
         "lengths": lengths,
-        "drive": _drive(found, links),
-        "drives": {name: _motor(found, links, name) | one for name, one in found.of("drives").items()},
-        "bodies": dict(_bodies(found, links)),
+        "drive": _drive(pose, links),
+        "drives": {name: _motor(pose, links, name) | one for name, one in pose.of("drives").items()},
+        "bodies": dict(_bodies(pose, links)),
     }
     return {key: table for key, table in tables.items() if table}
 

@@ -16,7 +16,7 @@ from typing import Any
 from linkanim import units
 from linkanim.build.draft import Draft, Photo, named_in
 from linkanim.build.freedom import mobility, redundant_bar
-from linkanim.build.places import Found, ends_of, found, place_of, plates_of
+from linkanim.build.places import JointTables, ends_of, place_of, plates_of, solvable_joints
 from linkanim.build.pose_form import posed_tables
 from linkanim.errors import BadInput, UnitError
 from linkanim.frozen import NamedTuple
@@ -240,7 +240,7 @@ _APART = r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths>.*) cannot
 _KEYS = r"^draft: (joints: |links: |points: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?"
 
 
-def missing(draft: Draft, known: Found) -> str:
+def missing(draft: Draft, known: JointTables) -> str:
     """Return what a draft lacks before its scene can be read; `known` are its found joints. "" if nothing."""
     if not draft.of("pins"):
         return EMPTY
@@ -267,7 +267,7 @@ def reworded(draft: Draft, error: BadInput) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _too_many(draft: Draft, known: Found) -> str:
+def _too_many(draft: Draft, known: JointTables) -> str:
     """Say which things are redundant: they hold joints that are held already; "" where there are none."""
     pins, plates = draft.of("pins"), plates_of(draft)
     for name, table in known.items():
@@ -299,7 +299,7 @@ def _too_many(draft: Draft, known: Found) -> str:
     return ""
 
 
-def _slides(known: Found, slot: Mapping[str, Any], ends: list[str]) -> bool:
+def _slides(known: JointTables, slot: Mapping[str, Any], ends: list[str]) -> bool:
     """Tell whether a joint was found by a slot: as the joint in it, or as the slotted bar's end."""
     through = slot["through"]
     line = known.get(through, {}).get("line", {})
@@ -317,7 +317,7 @@ def _third(draft: Draft, one: str, other: str) -> str | None:
     return min((near[0] & near[1]) - {one, other}, default=None)
 
 
-def _free(draft: Draft, known: Found) -> str:
+def _free(draft: Draft, known: JointTables) -> str:
     """Say how many bars are missing, or too many, for the drives; "" for a chain of dyads, or what moves."""
     stuck = [name for name in draft.places if name not in known and name not in draft.of("pins")]
     if not stuck:
@@ -395,12 +395,12 @@ class Made(NamedTuple):
         return None if self.by_points else self.scene
 
 
-def is_chain(draft: Draft, joints: Found) -> bool:
+def is_chain(draft: Draft, joints: JointTables) -> bool:
     """Return whether a chain of dyads finds all joints."""
     return draft.places.keys() <= {*joints, *draft.of("pins")}
 
 
-def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
+def document(draft: Draft, joints: JointTables) -> Mapping[str, Any]:
     """Return the document of a scene file for a draft: joint by joint where a chain of dyads has them all.
 
     `joints` are those that the chain finds. Else it is that of points in a pose; BadInput where none is near.
@@ -426,7 +426,7 @@ def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
 
 def made(draft: Draft, name: str = NAME) -> Made:
     """Return the scene that a draft describes, put together; or none, and what it lacks."""
-    joints = found(draft)
+    joints = solvable_joints(draft)
     if reason := missing(draft, joints):
         return Made(None, reason)
     try:
@@ -448,8 +448,8 @@ def phase_of(
     if by_points:
         solved, start = scene.mechanism, scene.linkage.drive.start
         ways = (n * scene.period / (_WAYS * solved.periods) for n in range(_WAYS * solved.periods))
-        found = dict.fromkeys(round(solved.phase_of(start, way), 12) for way in ways)
-        return min((0.0, *found), key=partial(_off, scene, places))
+        candidates = dict.fromkeys(round(solved.phase_of(start, way), 12) for way in ways)
+        return min((0.0, *candidates), key=partial(_off, scene, places))
     if scene.info.full_turn and not swung:
         return 0.0
     driven = places[scene.linkage.drive.joint]

@@ -36,8 +36,8 @@ def parse(argv: Sequence[str] | None = None) -> Namespace:
     """Read a command line (default: the process's own); `BadInput` in one sentence where it is wrong."""
     words = join_negative(sys.argv[1:] if argv is None else argv)
     for word in words:
-        if found := control_in(word):
-            raise BadInput(f"{shown(word)} has {found} in it; write plain text, and rename such a file")
+        if control := control_in(word):
+            raise BadInput(f"{shown(word)} has {control} in it; write plain text, and rename such a file")
     words = _with_command(words)
     return build(words[0] if words[0] in COMMANDS else None).parse_args(words)
 
@@ -103,7 +103,9 @@ def _versions() -> Iterator[str]:
     yield f"linkanim {__version__}"
     yield f"Python {platform.python_version()} on {platform.platform()}"
     for names in (("numpy",), ("pygame-ce", "pygame")):
-        yield next((f"{name} {found}" for name in names if (found := _installed(name))), f"{names[0]} none")
+        yield next(
+            (f"{name} {version}" for name in names if (version := _installed(name))), f"{names[0]} none"
+        )
     from linkanim.recorder.encode import ffmpeg_version
 
     yield f"ffmpeg {ffmpeg_version() or 'none'} (imageio-ffmpeg {_installed('imageio-ffmpeg') or 'none'})"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from linkanim.letters import LATEX, PDF, PIXELS, UNJOINED, Setting, lacking, told
+from linkanim.letters import LATEX, PDF, PIXELS, UNJOINED, Setting, lacking, sentence_of
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -23,17 +23,17 @@ def tell(words: str, by: Setting) -> None:
     if by is LATEX:
         from linkanim.explain.formula import latex_has
 
-        found = {by: lacking(words, latex_has)}
+        missing = {by: lacking(words, latex_has)}
     else:
         from linkanim.picture.text import JOINS, Fonts, script_of
 
         fonts = Fonts()
-        found = {PIXELS: lacking(words, fonts.has)}
+        missing = {PIXELS: lacking(words, fonts.has)}
         if by is not PIXELS or not JOINS:
             there = "".join(char for char in words if fonts.has(char))
-            found[by if by is not PIXELS else UNJOINED] = lacking(there, lambda char: not script_of(char))
-    for setting, letters in found.items():
-        if sentence := told(letters, setting):
+            missing[by if by is not PIXELS else UNJOINED] = lacking(there, lambda char: not script_of(char))
+    for setting, letters in missing.items():
+        if sentence := sentence_of(letters, setting):
             print(sentence, file=sys.stderr)
 
 

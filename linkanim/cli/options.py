@@ -60,10 +60,10 @@ def _decimal(part: str, text: str) -> Decimal:
 
 def size(text: str) -> tuple[int, int]:
     """Read `1280x720`: whole numbers of pixels, width first."""
-    found = re.fullmatch(r"\s*(\d{1,6})\s*[x×X]\s*(\d{1,6})\s*", text)
-    if not found or "0" in (found[1].lstrip("0") or "0", found[2].lstrip("0") or "0"):
+    match = re.fullmatch(r"\s*(\d{1,6})\s*[x×X]\s*(\d{1,6})\s*", text)
+    if not match or "0" in (match[1].lstrip("0") or "0", match[2].lstrip("0") or "0"):
         raise BadInput(f"{shown(text)} is not a size; write width x height in pixels, such as 1280x720")
-    width, height = int(found[1]), int(found[2])
+    width, height = int(match[1]), int(match[2])
     if max(width, height) > LARGEST_SIDE:
         raise BadInput(f"{shown(text)} is too large; a side has {LARGEST_SIDE:,} pixels at the most")
     return width, height
@@ -71,8 +71,8 @@ def size(text: str) -> tuple[int, int]:
 
 def megabytes(text: str) -> int:
     """Read `1.5MB` or `800 kB`: a number of bytes."""
-    found = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*([kKmM])[bB]\s*", text)
-    if not found or not (count := round(float(found[1]) * {"k": 1e3, "m": 1e6}[found[2].lower()])):
+    match = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*([kKmM])[bB]\s*", text)
+    if not match or not (count := round(float(match[1]) * {"k": 1e3, "m": 1e6}[match[2].lower()])):
         raise BadInput(f"{shown(text)} is not the size of a file; write it as 1MB or 800kB")
     return count
 
@@ -114,13 +114,13 @@ def bounded(read: Callable[[str], T]) -> Callable[[str], T]:
     """Return a reader that refuses numbers, or lists of them, that are too large or small to compute with."""
 
     def read_within_bounds(text: str) -> T:
-        found = read(text)
+        value = read(text)
         several = (
-            found.values() if isinstance(found, Mapping) else found if isinstance(found, tuple) else [found]
+            value.values() if isinstance(value, Mapping) else value if isinstance(value, tuple) else [value]
         )
         if not all(can_be_computed(one) for one in several if isinstance(one, float)):
             raise BadInput(f"{shown(text)} is beyond what can be computed; give {NUMBERS}")
-        return found
+        return value
 
     return read_within_bounds
 
@@ -161,18 +161,18 @@ def whole(text: str) -> int:
 
 def digits(text: str) -> int:
     """Read how many significant digits a number is written with."""
-    found = count(text)
-    if found > _MOST_DIGITS:
+    number = count(text)
+    if number > _MOST_DIGITS:
         raise BadInput(f"{shown(text)} digits are too many; a number has {_MOST_DIGITS} at the most")
-    return found
+    return number
 
 
 def speeds(text: str) -> dict[str, float]:
     """Read angular speeds with commas between, in rad/s by the words for each; zero is refused."""
-    found = _several(text, units.angular_speed)
-    if not found or not all(found.values()):
+    given = _several(text, units.angular_speed)
+    if not given or not all(given.values()):
         raise BadInput(f'{shown(text)}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
-    return found
+    return given
 
 
 def either_speed(text: str) -> Any:
@@ -186,10 +186,10 @@ def either_speed(text: str) -> Any:
 
 def angles(text: str) -> tuple[float, ...]:
     """Read angles with commas between, in radians."""
-    found = _several(text, units.angle)
-    if not found:
+    given = _several(text, units.angle)
+    if not given:
         raise BadInput(f'{shown(text)}: give angles with their unit, such as "87 deg,306 deg"')
-    return tuple(found.values())
+    return tuple(given.values())
 
 
 def _several(text: str, read: Callable[[str], float]) -> dict[str, float]:
@@ -201,12 +201,12 @@ def _several(text: str, read: Callable[[str], float]) -> dict[str, float]:
 
 def poses(text: str) -> int:
     """Read how many faint poses a figure has behind the one that it shows."""
-    found = count(text)
-    if found > MOST_POSES:
+    number = count(text)
+    if number > MOST_POSES:
         raise BadInput(
             f"{shown(text)} is too many; a figure has {MOST_POSES} poses behind its own at the most"
         )
-    return found
+    return number
 
 
 def box(text: str) -> tuple[float, ...]:
@@ -223,28 +223,28 @@ def pair(text: str) -> tuple[float, float]:
 def _numbers(text: str, count: int, form: str) -> tuple[float, ...]:
     """Read `count` finite numbers; `BadInput` says the form in which they are written."""
     try:
-        found = tuple(map(float, text.split(",")))
+        values = tuple(map(float, text.split(",")))
     except ValueError:
-        found = ()
-    if len(found) != count or not all(map(math.isfinite, found)):
+        values = ()
+    if len(values) != count or not all(map(math.isfinite, values)):
         raise BadInput(f"{shown(text.strip())} is not {form}")
-    return found
+    return values
 
 
 def length(text: str) -> float:
     """Read a length above zero in mm, which needs no unit."""
-    found = units.length(text, unit="mm")
-    if found <= 0:
+    value = units.length(text, unit="mm")
+    if value <= 0:
         raise BadInput(f"{shown(text)} is no length above zero; give one such as 80 mm")
-    return found
+    return value
 
 
 def step(text: str) -> float:
     """Read a length above zero in mm, such as `0.1 mm`."""
-    found = units.length(text, unit="mm")
-    if found <= 0:
+    value = units.length(text, unit="mm")
+    if value <= 0:
         raise BadInput(f"{shown(text)} is no length to round to; give one above zero, such as 0.1 mm")
-    return found
+    return value
 
 
 def millimetres(text: str) -> float:
@@ -256,11 +256,11 @@ def sheet(text: str) -> str | tuple[float, float]:
     """Read the size of a sheet in mm, `600x400`, or the name of a page."""
     if text in PAGES:
         return text
-    found = re.fullmatch(r"\s*([\d.]+)\s*[x×X]\s*([\d.]+)\s*(?:mm)?\s*", text)
-    if not found:
+    match = re.fullmatch(r"\s*([\d.]+)\s*[x×X]\s*([\d.]+)\s*(?:mm)?\s*", text)
+    if not match:
         pages = ", ".join(PAGES)
         raise BadInput(f"{shown(text)} is no sheet: take {pages}, or a size in mm such as 600x400")
-    return positive(found[1]), positive(found[2])
+    return positive(match[1]), positive(match[2])
 
 
 def timing(text: str) -> float | str:
@@ -311,14 +311,14 @@ class Parser(argparse.ArgumentParser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Refuse what a command does not know with that command's own help, and its nearest option."""
-        found, unknown = super().parse_known_args(args, namespace)
+        known, unknown = super().parse_known_args(args, namespace)
         if unknown and self._subparsers is None:
             word, *_ = unknown[0].split("=")
             if not word.startswith("-"):
                 self.error(f"{shown(unknown[0])} is one argument too many")
             options = [option for action in self._actions for option in action.option_strings]
             self.error(f"there is no option {shown(word)}{meant(word, options)}")
-        return found, unknown
+        return known, unknown
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         # argparse does not know `BadInput`, and would let it pass without the option's name
@@ -403,7 +403,7 @@ class Further(Action):
         setattr(options, self.dest, steps[max(at, min(to, len(steps) - 1))])
 
 
-def _takes(*names: str, **how: Any) -> Argument:
+def _argument(*names: str, **how: Any) -> Argument:
     """Return an argument as `add_argument` takes it."""
     return lambda parser: parser.add_argument(*names, **how)
 
@@ -414,11 +414,11 @@ def _value(
     """Return an argument with a value: its names, what help calls the value, how it is read, its default."""
     *names, metavar = words.split()
     kind = read if read in (str, Path) else bounded(read)
-    return _takes(*names, metavar=metavar, type=kind, help=text, default=usual, **how)
+    return _argument(*names, metavar=metavar, type=kind, help=text, default=usual, **how)
 
 
 def _flag(name: str, text: str) -> Argument:
-    return _takes(name, action="store_true", help=text)
+    return _argument(name, action="store_true", help=text)
 
 
 def _either(*arguments: Argument) -> Argument:
@@ -439,7 +439,7 @@ def _usually(**given: object) -> Argument:
 
 def _scene(more: str = "", **how: Any) -> Argument:
     words = f"a built-in scene's name (see `linkanim scenes`), or the path of a scene file{more}"
-    return _takes("scene", help=words, **{"metavar": "SCENE", **how})
+    return _argument("scene", help=words, **{"metavar": "SCENE", **how})
 
 
 def _output(text: str) -> Argument:
@@ -477,7 +477,7 @@ def _reading(option: Option, toggle: Toggle, usual: object) -> dict[str, Any]:
 
 
 _SCENE = _scene()
-_KIND_SOUGHT = _takes(
+_KIND_SOUGHT = _argument(
     "--kind",
     choices=("four-bar", "slider-crank"),
     default="four-bar",
@@ -490,7 +490,7 @@ _LANG = _value(
 )
 _SIZE = _value("--size WxH", size, "width and height in pixels (default: 1280x720)")
 _WINDOW_SIZE = _value("--size WxH", size, "the size of the window in pixels")
-_PURPOSE = _takes(
+_PURPOSE = _argument(
     "--for",
     dest="purpose",
     choices=tuple(PURPOSES),
@@ -498,7 +498,7 @@ _PURPOSE = _takes(
     + ", ".join(f"{name} ({purpose.words})" for name, purpose in PURPOSES.items())
     + "; --size is then its shape",
 )
-_TEXT = _takes(
+_TEXT = _argument(
     "--text", choices=("latex",), help="leave the words of a PDF to LaTeX, in FIG.pdf_tex beside it"
 )
 _ANGLE = _value("--angle ANGLE", units.angle, 'the crank angle, such as "87 deg"')
@@ -567,7 +567,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             str,
             'begin with a game, such as "match level=mine.toml", "follow scene=press", "predict level=2"',
         ),
-        _takes(
+        _argument(
             "--reduced-motion",
             action=BooleanOptionalAction,
             default=None,
@@ -579,17 +579,17 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "new": (
         _value("--photo FILE", Path, "lay a photograph behind the sheet"),
         _WINDOW_SIZE,
-        _takes("--theme", choices=("light", "dark"), default="light", help="the colours (default: light)"),
+        _argument("--theme", choices=("light", "dark"), default="light", help="the colours (default: light)"),
         _LANG,
     ),
     "record": (
         _scene(", of a tape or of a lesson"),
-        _takes("more", nargs="*", metavar="SCENE", help="further scenes, each on a slide of OUT.pptx"),
+        _argument("more", nargs="*", metavar="SCENE", help="further scenes, each on a slide of OUT.pptx"),
         _output(
             "write OUT.gif, .mp4, .webm, .webp, .apng, .mov, numbered .png, .pptx (slides) or .pdf (a "
             "page for each frame); default: SCENE.gif in this folder"
         ),
-        _takes(
+        _argument(
             "--for", dest="preset", choices=tuple(PRESETS), help="take size, rate and format for a purpose"
         ),
         _SIZE,
@@ -715,7 +715,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--json", "print one object; angles in radians, times in seconds"),
     ),
     "check": (
-        _takes("files", nargs="*", metavar="FILE", help="the scene files to check"),
+        _argument("files", nargs="*", metavar="FILE", help="the scene files to check"),
         _flag("--json", "print a list with an object for each file"),
         _flag("--schema", "print the JSON Schema of scene files"),
     ),
@@ -766,7 +766,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--moments-about JOINT", str, "take moments about this joint on bodies that have it"),
         _STATIC,
         _flag("--exercise", "ask questions instead, with room to work, and put the key on pages of its own"),
-        _takes(
+        _argument(
             "--level",
             choices=("drawing", "hints", "formulas"),
             help="what an exercise gives: the drawing alone, hints, or the formulas (default: drawing)",
@@ -825,7 +825,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "sizes of the curve",
             "the rectangle in which all fixed pins lie, or two of them, the crank's pin in the first",
         ),
-        _takes(
+        _argument(
             "--prefer",
             choices=("balanced", "exact", "compact", "angle"),
             default="balanced",
@@ -853,7 +853,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "sizes of the poses",
             "the rectangle in which the fixed pins lie that are not given, or two of them, one for each",
         ),
-        _takes(
+        _argument(
             "--prefer", choices=("compact", "angle"), help="prefer small links, or a large transmission angle"
         ),
         *_DRIVER,
@@ -862,7 +862,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--json", "print a list of objects; angles in radians"),
     ),
     "function": (
-        _takes(
+        _argument(
             "given", metavar="FUNCTION", help='an expression, such as "y = log10(x)", or a table of x and y'
         ),
         _flag(
@@ -872,7 +872,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--from A", number, "the first x", dest="first"),
         _value("--to B", number, "the last x", dest="last"),
-        _takes(
+        _argument(
             *("-o", "--file"),
             dest="output_file",
             metavar="NAME.toml",
@@ -890,7 +890,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             str,
             'the range of the rocker, or of the slider, "80 mm" (default: any, or 100 mm)',
         ),
-        _takes(
+        _argument(
             "--prefer",
             choices=("balanced", "exact"),
             default="balanced",
@@ -909,7 +909,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--stroke L", length, "the stroke of the slider in mm; for a rocker, the chord of its pin"),
         _value("--swing ANGLE", units.angle, 'the swing of the rocker, such as "60 deg"'),
-        _takes(
+        _argument(
             "--kind",
             choices=("slider-crank", "crank-rocker", "six-bar"),
             help="the kind of linkage (default: as --stroke or --swing asks for); a six-bar has a stroke of "
@@ -945,7 +945,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "make": (
         _SCENE,
         _value("-o --output FOLDER", Path, "the folder to write, or to write anew"),
-        _takes("--way", choices=WAYS, default=WAYS[0], help="how it is made (default: cardboard)"),
+        _argument("--way", choices=WAYS, default=WAYS[0], help="how it is made (default: cardboard)"),
         _value("--bar W", millimetres, "the width of bars in mm (default: by the size of the scene)"),
         _value(
             "--hole D", millimetres, "the diameter of holes in mm (default: two fifths of a bar, at most 6)"
@@ -969,7 +969,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--kerf K", millimetres, "the width of the cut in mm (default: 0)", 0.0),
         _value("--sheet WxH", sheet, "the size of the material in mm, or of a page, A4 or Letter"),
         _value("--fit PAGE", str, "scale all parts to fit a page, A4 or Letter (default: true size)"),
-        _takes(
+        _argument(
             *("--preview",),
             metavar="PICTURE",
             type=Path,
@@ -990,7 +990,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _flag("--json", "print one object with every case of every method"),
             _flag("--markdown", "print the table as it is in the manual"),
         ),
-        _takes(
+        _argument(
             "--again",
             nargs="+",
             metavar="NAME",
@@ -1001,7 +1001,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
     ),
     "manual": (
-        _takes(
+        _argument(
             "word",
             nargs="*",
             metavar="WORD",
@@ -1010,12 +1010,14 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output("write the page to OUT.html, and do not open it"),
     ),
     "examples": (
-        _takes(
+        _argument(
             "names", nargs="*", metavar="NAME", help="a number, a file's name, or `all` (default: list them)"
         ),
         _value("-o --output DIR", Path, "the folder to copy to (default: the current one)"),
     ),
-    "completion": (_takes("shell", choices=("bash", "zsh", "fish"), help="the shell that reads the script"),),
+    "completion": (
+        _argument("shell", choices=("bash", "zsh", "fish"), help="the shell that reads the script"),
+    ),
 }
 """The arguments of each command."""
 

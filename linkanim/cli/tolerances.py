@@ -39,7 +39,7 @@ def asked(scene: Scene, options: Namespace) -> Tolerance | None:
         return tolerance(scene, by, progress=progress)
 
 
-def _said(value: float, off: Off, scene: Scene) -> str:
+def _in_words(value: float, off: Off, scene: Scene) -> str:
     """Return how far a quantity is off, with its unit."""
     if off.is_angle:
         return f"{significant(math.degrees(value), 3)} deg"
@@ -53,29 +53,31 @@ def _called(off: Off, scene: Scene) -> str:
     return f"{'angle' if off.is_angle else 'travel'} of {off.name}"
 
 
-def table_of(found: Tolerance) -> str:
+def table_of(tolerance: Tolerance) -> str:
     """Return how far each quantity may be off, and by how much each length alone, as two tables."""
-    scene, several = found.scene, f"of {SAMPLES:,}"
+    scene, several = tolerance.scene, f"of {SAMPLES:,}"
     rows: list[tuple[str, ...]] = [
         ("off at most", "at phase", f"95 % {several}", f"most {several}", "chiefly by")
     ]
-    for off in found.quantities:
+    for off in tolerance.quantities:
         phase = "-" if off.worst_phase is None else f"{significant(math.degrees(off.worst_phase), 4)} deg"
-        drawn = [_said(one, off, scene) if math.isfinite(one) else "-" for one in (off.likely, off.greatest)]
-        rows.append((_said(off.worst, off, scene), phase, *drawn, found.most(off)))
-    heads = ["", *(_called(off, scene) for off in found.quantities)]
+        drawn = [
+            _in_words(one, off, scene) if math.isfinite(one) else "-" for one in (off.likely, off.greatest)
+        ]
+        rows.append((_in_words(off.worst, off, scene), phase, *drawn, tolerance.most(off)))
+    heads = ["", *(_called(off, scene) for off in tolerance.quantities)]
     each: list[tuple[str, ...]] = [("length alone", *heads[1:])]
-    for n, name in enumerate(found.lengths):
-        each.append((name, *(_said(float(off.by[n]), off, scene) for off in found.quantities)))
-    by = f"{significant(found.by, 4)} {scene.length_unit}"
+    for n, name in enumerate(tolerance.lengths):
+        each.append((name, *(_in_words(float(off.by[n]), off, scene) for off in tolerance.quantities)))
+    by = f"{significant(tolerance.by, 4)} {scene.length_unit}"
     first = columns([(head, *row) for head, row in zip(heads, rows, strict=True)])
-    return f"each of {len(found.lengths)} lengths off by {by} at the most\n{first}\n\n{columns(each)}"
+    return f"each of {len(tolerance.lengths)} lengths off by {by} at the most\n{first}\n\n{columns(each)}"
 
 
-def object_of(found: Tolerance) -> dict[str, object]:
+def object_of(tolerance: Tolerance) -> dict[str, object]:
     """Return what `--json` prints of a tolerance: lengths in the scene's unit, angles in radians."""
     return {
-        "by": found.by,
+        "by": tolerance.by,
         "quantities": [
             {
                 "of": off.name,
@@ -84,19 +86,19 @@ def object_of(found: Tolerance) -> dict[str, object]:
                 "worst_phase": off.worst_phase,
                 "likely": off.likely,
                 "greatest": off.greatest,
-                "most_by": found.most(off),
-                "alone": dict(zip(found.lengths, off.by.tolist(), strict=True)),
+                "most_by": tolerance.most(off),
+                "alone": dict(zip(tolerance.lengths, off.by.tolist(), strict=True)),
             }
-            for off in found.quantities
+            for off in tolerance.quantities
         ],
     }
 
 
-def draw(found: Tolerance, target: Path) -> None:
+def draw(tolerance: Tolerance, target: Path) -> None:
     """Draw how far the first quantity may be off over a period."""
     from linkanim.paper.tolerances import ToleranceChart
 
-    draw_page(ToleranceChart(found), target)
+    draw_page(ToleranceChart(tolerance), target)
 
 
 def draw_page(page: Written, target: Path) -> None:

@@ -63,10 +63,11 @@ def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[Equation
         case System():
             yield from _system(item, how, blank)
         case LargeSystem() if not blank:
-            found = [[typeset(entry, how, numbers=True) for entry in row] for row in item.values]
+            typeset_rows = [[typeset(entry, how, numbers=True) for entry in row] for row in item.values]
             unknowns = how.matrix([[how.symbol(unknown)] for unknown in item.unknowns])
             yield EquationRow(
-                how.matrix([row[:-1] for row in found]) + unknowns, how.matrix([row[-1:] for row in found])
+                how.matrix([row[:-1] for row in typeset_rows]) + unknowns,
+                how.matrix([row[-1:] for row in typeset_rows]),
             )
 
 
@@ -225,49 +226,49 @@ class DocumentForm:
     sheet: Callable[[list[str]], str] = "\n\n".join
 
 
-def document(found: Solution, form: DocumentForm) -> str:
+def document(solution: Solution, form: DocumentForm) -> str:
     """Return a worked solution as a document of this form."""
     parts = [
-        form.heading(1, found.title),
-        where_words(found, form),
-        *chapters(found, form),
-        *_results(found, form),
+        form.heading(1, solution.title),
+        where_words(solution, form),
+        *chapters(solution, form),
+        *_results(solution, form),
     ]
-    return form.page(found.title, "\n\n".join(part for part in parts if part))
+    return form.page(solution.title, "\n\n".join(part for part in parts if part))
 
 
-def _by_owner(found: Solution) -> Iterator[Outcome]:
+def _by_owner(solution: Solution) -> Iterator[Outcome]:
     """Yield the results, link by link and joint by joint."""
     owners: dict[str, list[Outcome]] = {}
-    for result in found.results:
+    for result in solution.results:
         if result.value.symbol is not None:
             owners.setdefault(result.token.partition(".")[0], []).append(result)
     return chain.from_iterable(owners.values())
 
 
-def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
+def _results(solution: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield the list of all results, with its heading."""
     yield form.heading(2, said("All results"))
-    solved = found.solved
-    yield form.listed([listed(short(one.value, solved), one.unit, "", form) for one in _by_owner(found)])
+    solved = solution.solved
+    yield form.listed([listed(short(one.value, solved), one.unit, "", form) for one in _by_owner(solution)])
 
 
-def where_words(found: Solution, form: DocumentForm) -> str:
+def where_words(solution: Solution, form: DocumentForm) -> str:
     """Return the paragraph that says where the input is."""
-    called, place = found.where
+    called, place = solution.where
     symbol = form.text(called) if isinstance(called, str) else form.inline(form.how.symbol(called))
     return form.paragraph(said("At {place}.", place=f"{symbol} = {form.text(place)}"))
 
 
-def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:
+def chapters(solution: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:
     """Yield the parts of a solution; if `blank`, its numbers are left open."""
-    for chapter in found.chapters:
+    for chapter in solution.chapters:
         yield form.heading(2, chapter.title)
-        drawn = form.figure(found) if chapter is found.loop_chapter else ""
-        if chapter is found.synthesis_chapter:
-            yield form.construction(found)
-        if chapter.title == said(FORCES) and found.bodies:
-            yield form.free(found)
+        drawn = form.figure(solution) if chapter is solution.loop_chapter else ""
+        if chapter is solution.synthesis_chapter:
+            yield form.construction(solution)
+        if chapter.title == said(FORCES) and solution.bodies:
+            yield form.free(solution)
         written = ["\n\n".join(step_parts(step, form, blank)) for step in chapter.steps]
         yield form.steps([part for part in (drawn, *written) if part])
 
@@ -276,10 +277,10 @@ _DERIVED = ("Positions", "The same by the half-angle form", "Kinematic coefficie
 """The chapters of a solution that are a derivation, in symbols alone."""
 
 
-def derivation(found: Solution, form: DocumentForm) -> Iterator[str]:
+def derivation(solution: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield the parts of the derivation in symbols: positions, half angles and the differentiated loops."""
     titles = [*map(said, _DERIVED)]
-    for chapter in found.chapters:
+    for chapter in solution.chapters:
         if chapter.title in titles:
             yield form.heading(3, chapter.title)
             steps = (
@@ -312,8 +313,8 @@ def set_items(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[st
     """Yield the parts of neighbours of one sort: equations in one block, sentences one by one."""
     if given := [item for item in items if isinstance(item, Given)]:
         yield form.listed([listed(item.value, item.unit, item.words, form) for item in given])
-    if found := [row for item in items for row in rows(item, form.how, blank=blank)]:
-        yield form.aligned(found)
+    if set_rows := [row for item in items for row in rows(item, form.how, blank=blank)]:
+        yield form.aligned(set_rows)
     for item in items:
         if isinstance(item, Words):
             yield form.paragraph(form.text(item.text))
@@ -385,17 +386,17 @@ _LIGHTS = r"""
 
 
 def _html_words(text: str) -> str:
-    return MARKED.sub(lambda found: _INDEXED.sub(r"<sub>\1</sub>\2", found[1]), escape(text))
+    return MARKED.sub(lambda part: _INDEXED.sub(r"<sub>\1</sub>\2", part[1]), escape(text))
 
 
-def _html_aligned(found: list[EquationRow]) -> str:
-    cells = "".join(f"<mtr><mtd>{row.left}</mtd><mtd><mo>=</mo>{row.right}</mtd></mtr>" for row in found)
+def _html_aligned(aligned: list[EquationRow]) -> str:
+    cells = "".join(f"<mtr><mtd>{row.left}</mtd><mtd><mo>=</mo>{row.right}</mtd></mtr>" for row in aligned)
     return f"<math display=block><mtable class=rows displaystyle=true>{cells}</mtable></math>"
 
 
-def _html_listed(found: list[tuple[str, str]]) -> str:
-    items = "".join(f"<li>{formula} {_html_words(words)}</li>" for formula, words in found)
-    kind = "given" if any(words for _, words in found) else "given results"
+def _html_listed(listed: list[tuple[str, str]]) -> str:
+    items = "".join(f"<li>{formula} {_html_words(words)}</li>" for formula, words in listed)
+    kind = "given" if any(words for _, words in listed) else "given results"
     return f"<ul class='{kind}'>{items}</ul>"
 
 
@@ -512,8 +513,8 @@ def _latex_words(text: str) -> str:
     return "".join(LATEX.name(part) if n % 2 else plain_latex(part) for n, part in enumerate(parts))
 
 
-def _latex_listed(found: list[tuple[str, str]]) -> str:
-    items = (formula + (f" ({_latex_words(words)})" if words else "") for formula, words in found)
+def _latex_listed(listed: list[tuple[str, str]]) -> str:
+    items = (formula + (f" ({_latex_words(words)})" if words else "") for formula, words in listed)
     return r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{item}}}" for item in items) + r"\end{flushleft}"
 
 
@@ -522,10 +523,10 @@ _LONG = 84
 """The most letters of a formula in the usual size: a longer one is set smaller, to stay on its page."""
 
 
-def _latex_aligned(found: list[EquationRow]) -> str:
-    lines = " \\\\\n".join(f"{row.left} &= {row.right}" for row in found)
+def _latex_aligned(aligned: list[EquationRow]) -> str:
+    lines = " \\\\\n".join(f"{row.left} &= {row.right}" for row in aligned)
     block = f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
-    longest = max(len(_COMMAND.sub("", row.right)) for row in found)
+    longest = max(len(_COMMAND.sub("", row.right)) for row in aligned)
     return f"{{\\footnotesize\n{block}}}" if "bmatrix" not in lines and longest > _LONG else block
 
 
@@ -577,14 +578,14 @@ def _without_tags(formula: str) -> str:
     return formula.replace("<", r"\lt ").replace(">", r"\gt ")
 
 
-def _markdown_aligned(found: list[EquationRow]) -> str:
+def _markdown_aligned(aligned: list[EquationRow]) -> str:
     """Return each equation between $ signs, its rows one behind the other."""
-    lines = "".join(f"\n{row.left} = {row.right}" if row.left else f" = {row.right}" for row in found)
+    lines = "".join(f"\n{row.left} = {row.right}" if row.left else f" = {row.right}" for row in aligned)
     return "\n\n".join(f"${line}$" for line in lines[1:].split("\n"))
 
 
-def _markdown_listed(found: list[tuple[str, str]]) -> str:
-    return "\n".join(f"- {formula} {_markdown_words(words)}".rstrip() for formula, words in found)
+def _markdown_listed(listed: list[tuple[str, str]]) -> str:
+    return "\n".join(f"- {formula} {_markdown_words(words)}".rstrip() for formula, words in listed)
 
 
 MARKDOWN = replace(

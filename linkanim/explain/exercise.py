@@ -39,23 +39,23 @@ def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "d
     """
     titles = [f"{one.title}, {chr(65 + n)}" for n, one in enumerate(versions)]
     titles = titles if len(versions) > 1 else [versions[0].title]
-    asked = [questions(found) for found in versions]
+    asked = [questions(version) for version in versions]
     parts: list[str] = []
-    for title, found, some in zip(titles, versions, asked, strict=True):
+    for title, version, some in zip(titles, versions, asked, strict=True):
         parts += [form.new_page] if parts else []
-        parts.append(form.sheet([*_pages(title, found, some, form, level)]))
-    for title, found, some in zip(titles, versions, asked, strict=True):
+        parts.append(form.sheet([*_pages(title, version, some, form, level)]))
+    for title, version, some in zip(titles, versions, asked, strict=True):
         parts += [
             form.new_page,
             form.heading(1, said("Key: {title}", title=title)),
-            where_words(found, form),
-            *_key(found, some, form),
+            where_words(version, form),
+            *_key(version, some, form),
         ]
     return form.page(titles[0], "\n\n".join(part for part in parts if part))
 
 
 def _pages(
-    title: str, found: Solution, asked: Sequence[ExamQuestion], form: DocumentForm, level: Level
+    title: str, solution: Solution, asked: Sequence[ExamQuestion], form: DocumentForm, level: Level
 ) -> Iterator[str]:
     """Yield the pages of a sheet: one, or two that share the questions by their marks."""
     marks = [one.marks for one in asked]
@@ -63,16 +63,16 @@ def _pages(
     first = sum(share <= _FIRST_PAGE for share in shares) or 1
     first = len(marks) if sum(marks) <= _ONE_PAGE else first
     written = [_question(n, one, form, level) for n, one in enumerate(asked, 1)]
-    head = [form.heading(1, title), form.named(sum(marks)), _where(found, form)]
-    task = form.beside(form.figure(found), "\n\n".join(_given(found, asked, form)))
+    head = [form.heading(1, title), form.named(sum(marks)), _where(solution, form)]
+    task = form.beside(form.figure(solution), "\n\n".join(_given(solution, asked, form)))
     pages = ([*head, task, *written[:first]], written[first:])
     yield from ("\n\n".join(part for part in page if part) for page in pages if page)
 
 
-def _where(found: Solution, form: DocumentForm) -> str:
+def _where(solution: Solution, form: DocumentForm) -> str:
     """Return where the linkage is, and the rules for all numbers of the sheet, told once."""
-    pins = [joint.name for joint in found.request.scene.linkage.joints if found.places[joint.name] == 0]
-    steady = not (found.request.acceleration or found.request.swings)
+    pins = [joint.name for joint in solution.request.scene.linkage.joints if solution.places[joint.name] == 0]
+    steady = not (solution.request.acceleration or solution.request.swings)
     return form.paragraph(
         form.text(
             sentences(
@@ -90,9 +90,9 @@ def _where(found: Solution, form: DocumentForm) -> str:
     )
 
 
-def _given(found: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
+def _given(solution: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
     """Yield what is given besides the figure."""
-    items = given(found, asked)
+    items = given(solution, asked)
     stated = {item.value.symbol: item for item in items if isinstance(item, Given)}
     yield from set_items([*stated.values()], form, blank=False)
     if related := [item for item in items if isinstance(item, Equation)]:
@@ -121,15 +121,15 @@ def _open(answer: ExamAnswer, form: DocumentForm) -> str:
     return form.inline(form.how.infix("=", typeset(answer.value, form.how), blank))
 
 
-def _key(found: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
+def _key(solution: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
     """Yield each question's answers, and below them the way that leads there."""
-    solved = found.solved
+    solved = solution.solved
     for n, one in enumerate(asked, 1):
         yield form.heading(2, f"{n} {one.text}")
         if one.answers:
             yield form.listed([_solved(answer, solved, form) for answer in one.answers])
-        if found.made and one.way == getattr(found.synthesis_chapter, "steps", None):
-            yield form.construction(found)
+        if solution.made and one.way == getattr(solution.synthesis_chapter, "steps", None):
+            yield form.construction(solution)
         if one.way:
             yield form.steps(["\n\n".join(step_parts(step, form, blank=False)) for step in one.way])
 

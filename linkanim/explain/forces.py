@@ -143,9 +143,9 @@ class Balance:
     def meet(self, joint: str, member: Member, force: Components, *, follows: bool = False) -> Components:
         """Add the lines of a joint's force on a body, and note it on both sides."""
         symbols = self.pair(joint, member)
-        found = Components(*(self.newtons(one, part) for one, part in zip(symbols, force, strict=True)))
-        self.note(joint, member, found, force if follows else None)
-        return found
+        components = Components(*(self.newtons(one, part) for one, part in zip(symbols, force, strict=True)))
+        self.note(joint, member, components, force if follows else None)
+        return components
 
     def note(self, joint: str, member: Member, force: Components, from_: Components | None = None) -> None:
         """Note a joint's force on a body whose lines are there; `from_` where it follows from another one."""
@@ -172,8 +172,8 @@ class Balance:
     def moment(self, member: Member, about: Components) -> Formula:
         """Return the moment of all that acts on a body."""
         terms = (cross(one.place - about, one.force) for one in self.forces[member] if one.place != about)
-        found = sum(terms, ZERO)
-        return sum((couple for _, couple in self.couples[member]), found)
+        moment = sum(terms, ZERO)
+        return sum((couple for _, couple in self.couples[member]), moment)
 
     def hang(self, member: Member, joint: str) -> None:
         """Let a body be held by a joint against all else that acts on it."""
@@ -334,8 +334,10 @@ def _solved(
     (a, b, c), (d, e, f) = values
     work.items.append(System(unknowns, rows, ((a, b, c), (d, e, f))))
     det = work.let(Symbol("D", f"{index},F"), a * e - b * d, SQUARE)
-    found = (c * e - b * f, a * f - d * c)
-    return Components(*(balance.newtons(one, part / det) for one, part in zip(unknowns, found, strict=True)))
+    numerators = (c * e - b * f, a * f - d * c)
+    return Components(
+        *(balance.newtons(one, part / det) for one, part in zip(unknowns, numerators, strict=True))
+    )
 
 
 def _places(formula: Formula) -> int:
@@ -365,8 +367,8 @@ def _bar_to_slider(joint: RRP, balance: Balance) -> None:
     aside = balance.work.let(Symbol("d", f"{name},F"), cross(arm, u), LENGTH)
     across = balance.newtons(Symbol("F", f"{index}n"), (-m - along_ * aside) / lever)
     force = u.times(along_) + normal.times(across)
-    found = balance.meet(name, bar, force)
-    balance.meet(name, block, pull - found, follows=True)
+    components = balance.meet(name, bar, force)
+    balance.meet(name, block, pull - components, follows=True)
     balance.guide(name, joint.line)
     balance.hang(bar, joint.end)
 
@@ -530,8 +532,10 @@ def forces(balance: Balance, about: str | None = None) -> Forces:
     equations = [(body, _equations(body, balance)) for body in bodies]
     steps = [Step("", (Words(said(_SENSES)),))]
     steps += [Step(said("What is known"), known)] if known else []
-    steps += [Step(said("{body}, free", body=_words(body)), _freed(body, found)) for body, found in equations]
-    steps += _system([one for _, found in equations for one in found], balance)
+    steps += [
+        Step(said("{body}, free", body=_words(body)), _freed(body, balances)) for body, balances in equations
+    ]
+    steps += _system([one for _, balances in equations for one in balances], balance)
     steps += [step for step in solved if step.items]
     return Forces(tuple(steps), tuple(balance.results), bodies)
 

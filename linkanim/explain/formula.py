@@ -370,11 +370,11 @@ _TEXT = str.maketrans(
 def _latex_index(text: str) -> str:
     """Return an index or a name in LaTeX: numbers in it are subscripts, but not those after a comma."""
     before = [",", *(word for word, _ in _INDEX.findall(text))]
-    found = [
+    parts = [
         f"_{{{digits}}}" if digits and last != "," else digits or _letters(word)
         for last, (word, digits) in zip(before, _INDEX.findall(text), strict=False)
     ]
-    return "".join(found)
+    return "".join(parts)
 
 
 def _letters(word: str) -> str:
@@ -429,13 +429,13 @@ LATEX = Notation(
 
 def _mathml_index(text: str) -> str:
     tokens = _INDEX.findall(text)
-    found: list[str] = []
+    parts: list[str] = []
     for n, (word, digits) in enumerate(tokens):
         if digits and n and tokens[n - 1][0] != ",":
-            found[-1] = f"<msub>{found[-1]}<mn>{digits}</mn></msub>"
+            parts[-1] = f"<msub>{parts[-1]}<mn>{digits}</mn></msub>"
         else:
-            found.append(f"<mn>{digits}</mn>" if digits else f"<mtext>{escape(word)}</mtext>")
-    return found[0] if len(found) == 1 else f"<mrow>{''.join(found)}</mrow>"
+            parts.append(f"<mn>{digits}</mn>" if digits else f"<mtext>{escape(word)}</mtext>")
+    return parts[0] if len(parts) == 1 else f"<mrow>{''.join(parts)}</mrow>"
 
 
 def _mathml_symbol(symbol: Symbol) -> str:

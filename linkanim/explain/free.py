@@ -29,39 +29,39 @@ class DrawnForce(NamedTuple):
     way: complex
 
 
-def panels(found: Solution) -> list[FreeBody]:
+def panels(solution: Solution) -> list[FreeBody]:
     """Return the bodies on which anything acts."""
-    return [body for body in found.bodies if body.forces or body.couples]
+    return [body for body in solution.bodies if body.forces or body.couples]
 
 
-def titled(found: Solution, body: FreeBody) -> str:
+def titled(solution: Solution, body: FreeBody) -> str:
     """Return what a body is called."""
-    scene = found.request.scene
+    scene = solution.request.scene
     own = next((one for one in scene.linkage.bodies if one.name == body.name), None)
     return called(own, scene.info.link_names) if own else said("Bar {name}", name=body.name)
 
 
-def joints_of(found: Solution, body: FreeBody) -> dict[str, complex]:
+def joints_of(solution: Solution, body: FreeBody) -> dict[str, complex]:
     """Return the joints of a body and where they lie."""
-    linkage = found.request.scene.linkage
+    linkage = solution.request.scene.linkage
     own = next((one for one in linkage.bodies if one.name == body.name), None)
     if own is not None and own.slider:
-        return {own.slider: found.places[own.slider]}
+        return {own.slider: solution.places[own.slider]}
     if own is None:
         pair = tuple(body.name.split("–"))
         if len(pair) < 2:
-            return {body.about: found.places[body.about]}
+            return {body.about: solution.places[body.about]}
         n = holding(linkage.rigid_bodies, pair)
     else:
         n = holding(linkage.rigid_bodies, own.joints)
-    return {name: found.places[name] for name in (linkage.rigid_bodies[n] if n else (body.about,))}
+    return {name: solution.places[name] for name in (linkage.rigid_bodies[n] if n else (body.about,))}
 
 
-def spread(found: Solution) -> float:
+def spread(solution: Solution) -> float:
     """Return the width or height of the largest body."""
     spreads = [0.0]
-    for body in panels(found):
-        places = np.array(list(joints_of(found, body).values()))
+    for body in panels(solution):
+        places = np.array(list(joints_of(solution, body).values()))
         spreads.append(float(max(np.ptp(places.real), np.ptp(places.imag))))
     return max(spreads)
 

@@ -249,9 +249,9 @@ def _left(joint: RRR, work: Work) -> bool:
 
 def _why_left(joint: RRR, left: bool) -> str:
     p, q = joint.ends
-    found = said(_WHY_LEFT[left], joint=marked(joint.name), p=marked(p), q=marked(q))
+    words = said(_WHY_LEFT[left], joint=marked(joint.name), p=marked(p), q=marked(q))
     usual = joint.side_of is not None or left == (joint.side > 0)
-    return said("{found}.", found=found) if usual else said(_PASSED, found=found)
+    return said("{found}.", found=words) if usual else said(_PASSED, found=words)
 
 
 _WHY_LEFT = {
@@ -293,9 +293,9 @@ def half_angle(joint: RRR, work: Work) -> None:
         # both vanish at 180°, and rounding errors have no direction
         del work.items[before:]
         return
-    found = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
-    miss, places = abs(math.remainder(found.value - angle.value, 360)), work.scale.decimals(ANGLE)
-    turns = "" if abs(found.value - angle.value) < _HALF_TURN else said(", apart from a full turn")
+    half = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
+    miss, places = abs(math.remainder(half.value - angle.value, 360)), work.scale.decimals(ANGLE)
+    turns = "" if abs(half.value - angle.value) < _HALF_TURN else said(", apart from a full turn")
     apart = "" if miss < 3 * 10.0**-places else said(", to within {miss}°", miss=in_digits(miss, 1))
     work.say(
         said("The root is taken with a plus on this closure.")
@@ -627,11 +627,11 @@ def move_group(point: GroupPoint, rates: Rates, order: Order) -> None:
         rates.let_moving(point.name, NOWHERE, order)
     else:
         pose = rates.work.pose.per_input
-        found, measure = (pose.velocity, pose.acceleration)[order - 1][point.name], Powers(1, order)
+        vector, measure = (pose.velocity, pose.acceleration)[order - 1][point.name], Powers(1, order)
         mark = rates.letters.moving[order - 1]
         x, y = (
             rates.work.solved(Symbol(letter, point.name, mark), float(value), measure, rates.scale)
-            for letter, value in zip("xy", found, strict=True)
+            for letter, value in zip("xy", vector, strict=True)
         )
         rates.moving.setdefault(point.name, []).append(Components(x, y))
     if point.name == point.group.points[-1]:
@@ -704,13 +704,13 @@ class _Chain(NamedTuple):
 
 def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
     """Return each dyad's loop in solving order, a driving cylinder's first; `places` is their positions."""
-    found = {
+    symbols = {
         step.title: {item.value.symbol for item in step.items if isinstance(item, ValueLine)}
         for step in places.steps
     }
     dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
     ways = _WaysFromGround(work)
-    loops = tuple(_loop(joint, ways, found.get(joint_title(joint.name), set())) for joint in dyads)
+    loops = tuple(_loop(joint, ways, symbols.get(joint_title(joint.name), set())) for joint in dyads)
     lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
     length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
     return loops if length is None else (_cylinder(length, work), *loops)
@@ -744,7 +744,7 @@ def _cylinder(length: Formula, work: Work) -> VectorLoop:
     )
 
 
-def _loop(joint: Joint, ways: _WaysFromGround, found: set[Symbol | None]) -> VectorLoop:
+def _loop(joint: Joint, ways: _WaysFromGround, symbols: set[Symbol | None]) -> VectorLoop:
     work, close = ways.work, KINDS[type(joint)].loop
     assert close is not None
     one, other = (ways.along(route) for route in close(joint, work))
@@ -760,7 +760,7 @@ def _loop(joint: Joint, ways: _WaysFromGround, found: set[Symbol | None]) -> Vec
     equations = [Equation(*pair) for pair in (bold, *parts)]
     arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
     known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
-    unknown = tuple(leaf for symbol, leaf in known.items() if symbol in found)
+    unknown = tuple(leaf for symbol, leaf in known.items() if symbol in symbols)
     return VectorLoop(
         Step(
             said("Loop of {joint}", joint=marked(joint.name)), (*equations, Unknown(unknown, said("Unknown")))
@@ -785,7 +785,7 @@ class _WaysFromGround:
 
     def __init__(self, work: Work) -> None:
         self.work = work
-        self._found: dict[str, _Chain] = {}
+        self._chains: dict[str, _Chain] = {}
 
     def along(self, route: Route) -> _Chain:
         """Return the whole route, from a fixed pin, to where a route leads."""
@@ -798,11 +798,11 @@ class _WaysFromGround:
 
     def _to(self, name: str) -> _Chain:
         """Return the route to a joint as its kind chooses it; one without vectors to a fixed pin."""
-        if name not in self._found:
+        if name not in self._chains:
             joint = self.work.linkage.joint(name)
             further = KINDS[type(joint)].route
-            self._found[name] = self.along(further(joint, self.work)) if further else _Chain(name, ())
-        return self._found[name]
+            self._chains[name] = self.along(further(joint, self.work)) if further else _Chain(name, ())
+        return self._chains[name]
 
 
 def _value(side: LoopSide) -> complex:

@@ -68,17 +68,17 @@ class ExamQuestion:
     way: tuple[Step, ...]
 
 
-def questions(found: Solution) -> tuple[ExamQuestion, ...]:
+def questions(solution: Solution) -> tuple[ExamQuestion, ...]:
     """Return five to eight questions on a pose; fewer where it has no rates or a loop has nothing more."""
-    return tuple(_Exam(found).questions())
+    return tuple(_Exam(solution).questions())
 
 
-def given(found: Solution, asked: Sequence[ExamQuestion]) -> tuple[Item, ...]:
+def given(solution: Solution, asked: Sequence[ExamQuestion]) -> tuple[Item, ...]:
     """Return what a solver of the questions needs besides the figure: numbers, gears, where travels begin."""
     ways = [item for one in asked for step in one.way for item in step.items]
     used = {leaf.symbol for item in ways for leaf in _leaves(item)}
     # what the input does is given, and not how the program lets it swing
-    driven = [item for step in found.positions.steps if step.title == INPUT_TITLE for item in step.items]
+    driven = [item for step in solution.positions.steps if step.title == INPUT_TITLE for item in step.items]
     input_ = [
         Given(replace(one.value, shown=f"{one.value.value:g}"), one.unit, "")
         for one in driven
@@ -87,11 +87,11 @@ def given(found: Solution, asked: Sequence[ExamQuestion]) -> tuple[Item, ...]:
     hidden = {leaf.symbol for one in driven for leaf in _leaves(one)} if input_ else set()
     stated = [
         item
-        for item in found.chapters[0].items
+        for item in solution.chapters[0].items
         if isinstance(item, Given) and item.value.symbol in used - hidden
     ]
     inside = [item for item in ways if isinstance(item, Given)]
-    return (*input_, *stated, *inside, *_gears(found, ways))
+    return (*input_, *stated, *inside, *_gears(solution, ways))
 
 
 def _leaves(item: Item) -> Iterator[Formula]:
@@ -104,9 +104,9 @@ def _leaves(item: Item) -> Iterator[Formula]:
             yield from (leaf for row in rows for entry in row for leaf in entry.leaves)
 
 
-def _gears(found: Solution, ways: Iterable[Item]) -> Iterator[Item]:
+def _gears(solution: Solution, ways: Iterable[Item]) -> Iterator[Item]:
     """Yield the equations of the geared cranks whose angles are worked out."""
-    linkage, names = found.request.scene.linkage, names_of(figure(found.request.scene))
+    linkage, names = solution.request.scene.linkage, names_of(figure(solution.request.scene))
     geared = [joint for joint in linkage.joints if isinstance(joint, Crank) and joint.gear is not None]
     angles = {Symbol("θ", names.angle(joint.pivot, joint.name)) for joint in geared}
     for item in ways:
@@ -117,11 +117,11 @@ def _gears(found: Solution, ways: Iterable[Item]) -> Iterator[Item]:
 class _Exam:
     """The questions on a pose while they are made."""
 
-    def __init__(self, found: Solution) -> None:
-        self.found, self.scene = found, found.request.scene
+    def __init__(self, solution: Solution) -> None:
+        self.solution, self.scene = solution, solution.request.scene
         self.linkage = self.scene.linkage
         self.names = names_of(figure(self.scene))
-        looped = [one for one in found.loop_chapter.steps if MARKED.search(one.title)]
+        looped = [one for one in solution.loop_chapter.steps if MARKED.search(one.title)]
         self.loops = looped[:_MOST_DYADS]
         self.dyads: list[str] = [MARKED.findall(step.title)[0] for step in self.loops]
         self.shown: set[int] = set()
@@ -147,7 +147,7 @@ class _Exam:
 
     def _further(self, points: Sequence[str]) -> Iterator[ExamQuestion]:
         """Yield the questions on rates, on the whole motion, on forces and on how the linkage was made."""
-        if not self.found.singular:
+        if not self.solution.singular:
             for order in ORDERS:
                 yield from self._rates(order)
                 yield from (self._moving(one, order) for one in points)
@@ -160,7 +160,7 @@ class _Exam:
 
     def _chapter(self, title: str) -> Chapter:
         """Return the chapter with an English title; one without steps where there is none."""
-        return next((one for one in self.found.chapters if one.title == said(title)), Chapter(title, ()))
+        return next((one for one in self.solution.chapters if one.title == said(title)), Chapter(title, ()))
 
     def _index(self, joint: str) -> int:
         return [one.name for one in self.linkage.joints].index(joint)
@@ -168,13 +168,13 @@ class _Exam:
     def _steps(self, chapter: str, upto: str, coefficients: Literal[0, 1, 2] = 0) -> tuple[Step, ...]:
         """Return the steps of a chapter that no way has yet, up to a joint, and what opens the chapter."""
         before = [joint.name for joint in self.linkage.joints[: self._index(upto) + 1]]
-        titles, found = [joint_title(name, coefficients) for name in before], []
+        titles, steps = [joint_title(name, coefficients) for name in before], []
         for n, step in enumerate(self._chapter(chapter).steps):
             wanted = step.title in titles or (n == 0 and not step.title)
             if wanted and id(step) not in self.shown:
                 self.shown.add(id(step))
-                found.append(step)
-        return tuple(found)
+                steps.append(step)
+        return tuple(steps)
 
     def _of_joint(self, chapter: str, joint: str) -> list[ValueLine]:
         title = joint_title(joint)
@@ -244,14 +244,14 @@ class _Exam:
 
     def _things(self, answers: Sequence[ExamAnswer], turning: str, sliding: str) -> str:
         """Return what is asked for in words: the angle of the rod and the travel of the slider."""
-        found: dict[str, list[str]] = {}
+        named: dict[str, list[str]] = {}
         for one in answers:
             symbol = one.value.symbol
             assert symbol is not None
             what = sliding if symbol.letter in "st" else turning
-            found.setdefault(what, []).append(self._thing(symbol) or self._line(symbol.sub))
+            named.setdefault(what, []).append(self._thing(symbol) or self._line(symbol.sub))
         parts = [
-            said(_MEASURES[what][len(things) > 1], things=row_said(things)) for what, things in found.items()
+            said(_MEASURES[what][len(things) > 1], things=row_said(things)) for what, things in named.items()
         ]
         return row_said(parts)
 
@@ -403,7 +403,7 @@ class _Exam:
             if isinstance(item, ValueLine) and item.value.symbol and item.value.symbol.letter in "hfg"
         ]
         answers = _answers([one for one in lines if one.value.symbol and not one.value.symbol.mark][:2])
-        if not answers or self.found.singular:
+        if not answers or self.solution.singular:
             return None
         things = self._things(_as_places(answers), "derivative of the angle", "derivative of the travel")
         text = said(
@@ -450,16 +450,16 @@ class _Exam:
         used = {leaf.symbol for line in lines for leaf in line.formula.leaves}
         used -= {line.value.symbol for line in lines}
         before = self._chapter("Range of the input").items
-        found = [one for one in before if isinstance(one, ValueLine) and one.value.symbol in used]
-        if found:
-            yield Step("", tuple(found))
+        values = [one for one in before if isinstance(one, ValueLine) and one.value.symbol in used]
+        if values:
+            yield Step("", tuple(values))
 
     def _forces(self) -> Iterator[ExamQuestion]:
         """Yield the question on what joints carry, where forces are worked out: on one link at each joint."""
-        if not self.found.bodies:
+        if not self.solution.bodies:
             return
         first: dict[str, list[ExamAnswer]] = {}
-        for result in self.found.results:
+        for result in self.solution.results:
             _, joint, kind, axis = [*result.token.split("."), "", "", ""][:4]
             if (
                 kind == "force"
@@ -479,7 +479,7 @@ class _Exam:
 
     def _made(self) -> Iterator[ExamQuestion]:
         """Yield the question on how the linkage was synthesised, if it was."""
-        if made := self.found.synthesis_chapter:
+        if made := self.solution.synthesis_chapter:
             lines = [item for item in made.items if isinstance(item, ValueLine)]
             lengths = [one for one in lines if one.value.symbol and one.value.symbol.letter in "re"]
             last = {one.value.symbol: one for one in lengths}
@@ -538,12 +538,12 @@ def _answers(lines: Iterable[ValueLine]) -> tuple[ExamAnswer, ...]:
 def _as_places(answers: Sequence[ExamAnswer]) -> list[ExamAnswer]:
     """Return coefficients by the symbols of what they are derivatives of, to be named."""
     letters = {"h": "θ", "f": "s", "g": "t"}
-    found = []
+    answers_left = []
     for one in answers:
         assert one.value.symbol is not None
         symbol = Symbol(letters[one.value.symbol.letter], one.value.symbol.sub)
-        found.append(ExamAnswer(replace(one.value, symbol=symbol), one.unit))
-    return found
+        answers_left.append(ExamAnswer(replace(one.value, symbol=symbol), one.unit))
+    return answers_left
 
 
 def _is_place(line: ValueLine, joint: str) -> bool:

@@ -115,11 +115,11 @@ def place_input(request: PoseRequest, rates: Rates) -> None:
     ends = (joint.pivot, joint.name) if isinstance(joint, Crank) else None
     slid = Symbol("θ", joint.name) if joint.motor else work.names.slide(joint.name)
     symbol = work.angle_symbol(*ends) if ends else slid
-    found = (_swinging if request.swings else _stated)(request, rates, symbol)
+    angle = (_swinging if request.swings else _stated)(request, rates, symbol)
     if ends:
-        work.angles[ends] = found
+        work.angles[ends] = angle
     else:
-        work.slides[joint.name] = found
+        work.slides[joint.name] = angle
 
 
 def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
@@ -149,12 +149,12 @@ def _swinging(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     low, high = request.scene.info.input_range
     middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, said("middle of the swing"))
     amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, said("half of the swing"))
-    found = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
+    angle = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
     reach = work.let(Symbol("a"), amplitude * _PI / number("180", in_degrees=True), RATIO)
     once, twice = _cosine_rates(reach, phase, pace)
     rates.let_rate(work.driver, once, 1)
     rates.let_rate(work.driver, twice, 2)
-    return found
+    return angle
 
 
 def _cosine_rates(reach: Formula, phase: Formula, pace: Formula) -> tuple[Formula, Formula]:
@@ -200,12 +200,12 @@ def _cylinder(
         )
     )
     corner = work.let(Symbol("ψ"), arccos((square(g) + square(r) - square(length)) / (TWO * g * r)), ANGLE)
-    found = work.let(symbol, base + corner if triangle.side > 0 else base - corner, ANGLE)
+    angle = work.let(symbol, base + corner if triangle.side > 0 else base - corner, ANGLE)
     arm = g * r * sin(corner)
     turning = rates.let_rate(work.driver, (length * once if triangle.side > 0 else -(length * once)) / arm, 1)
     bend = square(once) + length * twice - g * r * cos(corner) * square(turning)
     rates.let_rate(work.driver, (bend if triangle.side > 0 else -bend) / arm, 2)
-    return found
+    return angle
 
 
 # The loads of a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
@@ -523,25 +523,25 @@ def solution(request: PoseRequest) -> Solution:
         with suppress(ZeroDivisionError, ValueError):
             places: dict[Symbol, int] = {}
             draft = _Draft(request, names, digits, places)
-            found = draft.solution(rates)
+            worked = draft.solution(rates)
             # fewer digits of one number change those that follow from it, which may then need fewer, too
-            while _agrees(found) and not (fewer := _right_places(found)).items() <= places.items():
+            while _agrees(worked) and not (fewer := _right_places(worked)).items() <= places.items():
                 places |= fewer
                 draft = _Draft(request, names, digits, places)
-                found = draft.solution(rates)
-            if _agrees(found):
+                worked = draft.solution(rates)
+            if _agrees(worked):
                 break
-    pose = len(found.chapters) - found.made
+    pose = len(worked.chapters) - worked.made
     whole = whole_motion(request.scene, draft.work)
-    given, *others = found.chapters[:pose]
-    given = replace(given, steps=(*given.steps, *_carried(found)))
-    return replace(found, chapters=(given, *others, *whole, *found.chapters[pose:]))
+    given, *others = worked.chapters[:pose]
+    given = replace(given, steps=(*given.steps, *_carried(worked)))
+    return replace(worked, chapters=(given, *others, *whole, *worked.chapters[pose:]))
 
 
-def _carried(found: Solution) -> Iterator[Step]:
+def _carried(solution: Solution) -> Iterator[Step]:
     """Yield the sentence on the digits of a solution, where it has rates."""
-    if not found.singular:
-        fewer = any(_has_fewer(result.value, true) for result, true in _compared(found))
+    if not solution.singular:
+        fewer = any(_has_fewer(result.value, true) for result, true in _compared(solution))
         yield Step("", (Words(said(_FEWER if fewer else _CARRIED)),))
 
 
@@ -552,10 +552,10 @@ def _has_fewer(value: Formula, true: float) -> bool:
     return value.value != 0 and (coarse or places < decimals(true, TOLD))
 
 
-def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
+def _compared(solution: Solution) -> Iterator[tuple[Outcome, float]]:
     """Yield each result with the solver's value, an angle on the same turn as the result."""
-    motion, quantities = found.request.motion(), found.request.scene.quantities
-    for result in found.results:
+    motion, quantities = solution.request.motion(), solution.request.scene.quantities
+    for result in solution.results:
         true, worked_out = float(quantities[result.token].shown(motion)), result.value.value
         yield (
             result,
@@ -563,15 +563,15 @@ def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
         )
 
 
-def _agrees(found: Solution) -> bool:
+def _agrees(solution: Solution) -> bool:
     return all(
         abs(result.value.value - true) <= max(_AGREES * abs(true), result.least)
-        and _told_alike(result.value, true)
-        for result, true in _compared(found)
+        and _same_digits(result.value, true)
+        for result, true in _compared(solution)
     )
 
 
-def _told_alike(value: Formula, true: float) -> bool:
+def _same_digits(value: Formula, true: float) -> bool:
     """Return whether a value and the solver's are one number in the digits that are told of it."""
     places = decimals(true, TOLD) if math.isfinite(true) else _MOST
     if places > len(value.shown.partition(".")[2]):
@@ -579,7 +579,7 @@ def _told_alike(value: Formula, true: float) -> bool:
     return abs(float(rounded(value.value, places)) - true) <= HALF * 10.0**-places
 
 
-def _right_places(found: Solution) -> dict[Symbol, int]:
+def _right_places(solution: Solution) -> dict[Symbol, int]:
     """Return the decimals in which zeros and `last` results are right, by symbol, where more are shown.
 
     If one zero shows rounding, all zeros get fewer decimals: else those that follow from it would show it
@@ -588,7 +588,7 @@ def _right_places(found: Solution) -> dict[Symbol, int]:
     zeros: dict[Symbol, int] = {}
     right: dict[Symbol, int] = {}
     rounding = False
-    for result, true in _compared(found):
+    for result, true in _compared(solution):
         value, symbol = result.value.value, result.value.symbol
         shown = len(result.value.shown.partition(".")[2])
         if symbol is None:
@@ -723,7 +723,7 @@ class _Draft:
                 check = said(
                     "Check: inserted in the differentiated loops, these values leave a residual of at most "
                     "{most}.",
-                    most=self._left_over(order),
+                    most=self._residual_words(order),
                 )
                 self._step("", partial(self.work.say, check))
             yield from self._chapter(said(title))
@@ -737,10 +737,10 @@ class _Draft:
                 size = self.rates.let(Symbol("va"[order - 1], joint.name), formula, Powers(1, order))
                 self.results.append(self.rates.scale.outcome(f"{joint.name}.{word}", size, Powers(1, order)))
 
-    def _left_over(self, order: Order) -> str:
+    def _residual_words(self, order: Order) -> str:
         """Return words for the largest residual of the differentiated loops at the rates of an order."""
-        found, self.rates.left_over = self.rates.left_over, 0.0
-        return f"{in_digits(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
+        residual, self.rates.residual = self.rates.residual, 0.0
+        return f"{in_digits(residual, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
 
     def _moved(self, rates: Rates, order: Order, coefficients: Literal[0, 1, 2] = 0) -> None:
         """Add a step for each joint that moves; its title may say which coefficients it is on."""
@@ -760,16 +760,16 @@ class _Draft:
         """Yield the chapters of centres of mass, springs and dampers, and of the input's torque or force."""
         for body in self._turning():
             if body.com is not None:
-                self._found(
+                self._step_with_results(
                     called(body, self.request.scene.info.link_names), centre_of_mass(body, self.rates)
                 )
         yield from self._chapter(said("Centres of mass"))
         for item in self.linkage.springs + self.linkage.dampers:
-            self._found(self.linkage.strut_title(item), strut(item, self.rates))
+            self._step_with_results(self.linkage.strut_title(item), strut(item, self.rates))
         yield from self._chapter(said("Springs and dampers"))
         if self.linkage.forceful:
             known = {result.token: result.value for result in self.results}
-            self._found("", effort(self.rates, known, self.request.motion()))
+            self._step_with_results("", effort(self.rates, known, self.request.motion()))
             yield from self._chapter(said("Load on the input"))
             if self.request.forces:
                 yield from self._forces(known)
@@ -782,11 +782,11 @@ class _Draft:
                 " `linkanim solve` and `linkanim chart` have them"
             )
         balance = Balance(self.rates, known, self.motion, lambda body: centre_name(body, self.rates))
-        found = forces(balance, self.request.about)
-        self.results += found.results
-        self.bodies = found.bodies
-        yield Chapter(said(FORCES), found.steps)
+        balanced = forces(balance, self.request.about)
+        self.results += balanced.results
+        self.bodies = balanced.bodies
+        yield Chapter(said(FORCES), balanced.steps)
 
-    def _found(self, title: str, found: Iterable[Outcome]) -> None:
+    def _step_with_results(self, title: str, outcomes: Iterable[Outcome]) -> None:
         """Add a step with its results."""
-        self._step(title, lambda: self.results.extend(found))
+        self._step(title, lambda: self.results.extend(outcomes))

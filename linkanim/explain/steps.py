@@ -217,19 +217,19 @@ class SymbolNames:
 
     @cached_property
     def _bodies(self) -> dict[int, str]:
-        found = {n: "".join(list(frame)[:2]) for n, frame in enumerate(self.linkage.rigid_bodies)}
+        labels = {n: "".join(list(frame)[:2]) for n, frame in enumerate(self.linkage.rigid_bodies)}
         for ends, label in self._angles.items():
             frame = holding(self.linkage.rigid_bodies, ends)
             if frame is not None:
-                found[frame] = label
-        return found | {BETWEEN: self.linkage.drive.joint}
+                labels[frame] = label
+        return labels | {BETWEEN: self.linkage.drive.joint}
 
 
 def names_of(figure: Figure) -> SymbolNames:
     """Return the symbols of a figure's linkage."""
     known = symbols(figure)
-    found = [length for length in known.dimensions if not length.angle]
-    bars = {frozenset(m.frame): m for m in reversed(found) if (m.begin, m.end) == (0, 1)}
+    lengths = [length for length in known.dimensions if not length.angle]
+    bars = {frozenset(m.frame): m for m in reversed(lengths) if (m.begin, m.end) == (0, 1)}
     legs = {point.name: tuple(map(_index, known.legs(figure, point))) for point in known.points}
     return SymbolNames(
         figure.linkage, {ends: _index(m.symbol) for ends, m in bars.items() if len(ends) == 2}, legs
@@ -346,9 +346,9 @@ class Work:
         if formula.constant is not None:
             return formula
         text = rounded(formula.value, min(places, self.places.get(symbol, places)))
-        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
-        self.items.append(ValueLine(formula, found, unit))
-        return found
+        leaf = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
+        self.items.append(ValueLine(formula, leaf, unit))
+        return leaf
 
     def stated(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
         """Return what the scene states as a symbol's value; 0 and multiples of 90° as numbers alone."""
@@ -370,18 +370,18 @@ class Work:
 
     def quoted(self, symbol: Symbol, text: str, unit: str, words: str = "") -> Formula:
         """Return a symbol with a value given in these digits, an exponent written out."""
-        found = Formula("leaf", symbol=symbol, shown=f"{Decimal(text):f}", in_degrees=unit == "°")
-        self.given.setdefault(symbol, Given(found, unit, words))
-        return found
+        leaf = Formula("leaf", symbol=symbol, shown=f"{Decimal(text):f}", in_degrees=unit == "°")
+        self.given.setdefault(symbol, Given(leaf, unit, words))
+        return leaf
 
     def solved(self, symbol: Symbol, value: float, measure: Powers, scale: Scale | None = None) -> Formula:
         """Add the line of a value that no formula gives, and return the symbol."""
         scale = scale or self.scale
         places, unit = scale.decimals(measure), scale.unit_of(measure)
         text = rounded(value, min(places, self.places.get(symbol, places)))
-        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
-        self.items.append(Given(found, unit, said("solved")))
-        return found
+        leaf = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
+        self.items.append(Given(leaf, unit, said("solved")))
+        return leaf
 
     def written(self, value: float, measure: Powers) -> str:
         """Return a number as it was stated; where that is too long, with one decimal more than a result."""
@@ -396,13 +396,13 @@ class Work:
 
     def angle_of(self, start: str, end: str) -> Formula:
         """Return the angle of the line from one joint to another, worked out where it is not known yet."""
-        found = self.angles.get((start, end))
-        if found is None:
+        formula = self.angles.get((start, end))
+        if formula is None:
             span, symbol = self.points[end] - self.points[start], self.angle_symbol(start, end)
             angle = atan2(span.y, span.x)
-            found = self._same_angle(symbol, angle.value) or self.let(symbol, angle, ANGLE)
-            self.angles[start, end] = found
-        return found
+            formula = self._same_angle(symbol, angle.value) or self.let(symbol, angle, ANGLE)
+            self.angles[start, end] = formula
+        return formula
 
     def _same_angle(self, symbol: Symbol, value: float) -> Formula | None:
         """Return the angle that is known by this symbol: that of another two points of the same line."""
@@ -421,9 +421,9 @@ class Work:
 
     def frame(self, ends: tuple[str, str]) -> int:
         """Return the number of the rigid body that has both joints; 0 is the ground."""
-        found = holding(self.linkage.rigid_bodies, ends)
-        assert found is not None
-        return found
+        number = holding(self.linkage.rigid_bodies, ends)
+        assert number is not None
+        return number
 
     @property
     def driver(self) -> int | str:
@@ -551,7 +551,7 @@ class Rates:
     struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
     slopes: Rates | None = None
     """The coefficients, from which rates in time follow by the chain rule."""
-    left_over: float = 0.0
+    residual: float = 0.0
     """The most by which rates from coefficients miss the differentiated loops."""
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers) -> Formula:
@@ -565,9 +565,9 @@ class Rates:
     def let_rate(self, coordinate: Coordinate, formula: Formula, order: Order, letter: str = "s") -> Formula:
         """Add the line that says how a rigid body turns, or how fast something slides."""
         measure = Powers(int(isinstance(coordinate, str)), order)
-        found = self.let(self.symbol(coordinate, order, letter), formula, measure)
-        self.known.setdefault((coordinate, letter), []).append(found)
-        return found
+        rate = self.let(self.symbol(coordinate, order, letter), formula, measure)
+        self.known.setdefault((coordinate, letter), []).append(rate)
+        return rate
 
     def let_solved(self, frame: int, order: Order) -> None:
         """Add the line that says how a rigid body of a group turns: as solved, or by the chain rule."""
@@ -580,8 +580,8 @@ class Rates:
         arm, rate = (complex(*kind[second]) - complex(*kind[first]) for kind in kinds)
         turning = (arm.conjugate() * rate).imag / abs(arm) ** 2
         symbol, measure = self.symbol(frame, order), Powers(0, order)
-        found = self.work.solved(symbol, turning, measure, self.scale)
-        self.known.setdefault((frame, "s"), []).append(found)
+        value = self.work.solved(symbol, turning, measure, self.scale)
+        self.known.setdefault((frame, "s"), []).append(value)
 
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
         """Add the lines that say how a joint moves."""
@@ -645,13 +645,13 @@ class Rates:
         if self.slopes is not None:
             known = (self.slopes.known[one.coordinate, one.letter] for one in unknowns)
             chained = [self._chain(slopes, order) for slopes in known]
-            found = [
+            rates = [
                 self.let_rate(one.coordinate, formula, order, one.letter)
                 for one, formula in zip(unknowns, chained, strict=True)
             ]
-            sides = (one.column.times(rate) for one, rate in zip(unknowns, found, strict=True))
+            sides = (one.column.times(rate) for one, rate in zip(unknowns, rates, strict=True))
             miss = sum(sides, NOWHERE) - right
-            self.left_over = max(self.left_over, abs(miss.x.value), abs(miss.y.value))
+            self.residual = max(self.residual, abs(miss.x.value), abs(miss.y.value))
             return
         one, other = (unknown.column for unknown in unknowns)
         left, beside = (LENGTH if isinstance(unknown.coordinate, int) else RATIO for unknown in unknowns)
@@ -717,7 +717,7 @@ def slide_sides(work: Work, guide: GuideLine, joint: str) -> tuple[LoopSide, ...
     """Return the vectors of a travel: along the guide, and across it where the guide is offset."""
     slide = work.slides[joint]
     index = work.names.slide(joint).sub
-    found = [LoopSide(Symbol("S", index, bold=True), guide.direction.times(slide))]
+    sides = [LoopSide(Symbol("S", index, bold=True), guide.direction.times(slide))]
     if guide.offset.constant != 0:
-        found.append(LoopSide(Symbol("E", joint, bold=True), guide.direction.left().times(guide.offset)))
-    return tuple(found)
+        sides.append(LoopSide(Symbol("E", joint, bold=True), guide.direction.left().times(guide.offset)))
+    return tuple(sides)

@@ -79,7 +79,7 @@ class _Chapter:
     @property
     def agrees(self) -> bool:
         """Whether the lengths that are worked out are the linkage's."""
-        return all(abs(found.value - true) <= _AGREES * abs(true) for found, true in self.compared)
+        return all(abs(value.value - true) <= _AGREES * abs(true) for value, true in self.compared)
 
     def _step(self, title: str, write: Callable[[], None]) -> None:
         """Add a step with the lines that `write` adds; numbers given for them stand first."""
@@ -121,17 +121,17 @@ class _Chapter:
 
     def _guided(self, purpose: PosesPurpose) -> None:
         count = len(purpose.poses)
-        found = guided_body(self.scene, purpose)
+        body = guided_body(self.scene, purpose)
         self._step(said("Poses"), partial(self._poses, purpose))
         self._step(said("Displacements"), self._against)
-        if count <= 3 and len(found.poses.poles) == count * (count - 1) // 2:
+        if count <= 3 and len(body.poses.poles) == count * (count - 1) // 2:
             self._step(said("Poles"), partial(self._poles, count))
-        for joint, place, pivot, held in zip("AB", found.joints, ("O2", "O4"), found.held, strict=True):
+        for joint, place, pivot, held in zip("AB", body.joints, ("O2", "O4"), body.held, strict=True):
             if held is None:
-                assert found.line is not None
+                assert body.line is not None
                 self._step(
                     said("Slider {joint}", joint=marked(joint)),
-                    partial(self._slides, joint, complex(place), found.line),
+                    partial(self._slides, joint, complex(place), body.line),
                 )
             else:
                 title = said("Joint {joint} for the pivot {pivot}", joint=marked(joint), pivot=marked(pivot))
@@ -185,7 +185,7 @@ class _Chapter:
         px = self.work.known(Symbol("x", pivot), at.real, LENGTH, said("chosen"))
         py = self.work.known(Symbol("y", pivot), at.imag, LENGTH, said("chosen"))
         ends = ("O2", "A") if joint == "A" else ("O4", "B")
-        own = self._found(joint, (px, py)) if len(self.turns) > 1 else self._chosen(joint, place)
+        own = self._solved_place(joint, (px, py)) if len(self.turns) > 1 else self._chosen(joint, place)
         self.work.say(
             said(
                 "In every pose {joint} is equally far from {pivot}, so a bar can join them.",
@@ -206,7 +206,7 @@ class _Chapter:
             self.work.known(Symbol("η", joint), own.imag, LENGTH, said("chosen")),
         )
 
-    def _found(self, joint: str, pivot: tuple[Formula, Formula]) -> tuple[Formula, Formula]:
+    def _solved_place(self, joint: str, pivot: tuple[Formula, Formula]) -> tuple[Formula, Formula]:
         """Return where a joint lies in the first pose, from its origin, by the equations of poses 2 and 3."""
         self.work.say(
             said(
@@ -234,12 +234,12 @@ class _Chapter:
         ahead, left = own
         for n, (x, y) in enumerate(self.origins, start=1):
             if n == 1:
-                found = x + ahead, y + left
+                place = x + ahead, y + left
             else:
                 c, s = cos(self.turns[n - 2]), sin(self.turns[n - 2])
-                found = x + ahead * c - left * s, y + ahead * s + left * c
+                place = x + ahead * c - left * s, y + ahead * s + left * c
             index = f"{joint}{n}"
-            yield self._length("x", index, found[0]), self._length("y", index, found[1])
+            yield self._length("x", index, place[0]), self._length("y", index, place[1])
 
     def _slides(self, joint: str, place: complex, line: complex) -> None:
         """Add a joint that slides along a line: its offset from the crank's pivot in every pose."""
@@ -356,7 +356,7 @@ class _Chapter:
         coupler = self._length("r", "3", sqrt(rest))
         bars = (("O2", "A"), ("O4", "B"), ("A", "B"))
         self.compared += [
-            (found, self._bar(*ends)) for found, ends in zip((crank, rocker, coupler), bars, strict=True)
+            (length, self._bar(*ends)) for length, ends in zip((crank, rocker, coupler), bars, strict=True)
         ]
 
     # Time ratios: Alt's construction.
@@ -396,20 +396,20 @@ class _Chapter:
         if even:
             coupler = self.work.known(Symbol("r", "3"), self._bar("A", "B"), LENGTH, said("chosen"))
             self.work.say(said("Without a quick return the crank is half the chord."))
-            found = self._length("r", "2", chord / TWO)
+            length = self._length("r", "2", chord / TWO)
         else:
             self.work.say(
                 said(
                     "Coupler minus crank and coupler plus crank, with α between them, form a triangle with H."
                 )
             )
-            found = self.work.known(Symbol("r", "2"), crank, LENGTH, said("the crank, chosen"))
+            length = self.work.known(Symbol("r", "2"), crank, LENGTH, said("the crank, chosen"))
             half = self.named["α"] / TWO
             coupler = self._length(
-                "r", "3", sqrt(square(chord) - square(TWO * found * cos(half))) / (TWO * sin(half))
+                "r", "3", sqrt(square(chord) - square(TWO * length * cos(half))) / (TWO * sin(half))
             )
-        self.named |= {"a": found, "b": coupler}
-        self.compared += [(found, crank), (coupler, self._bar("A", "B"))]
+        self.named |= {"a": length, "b": coupler}
+        self.compared += [(length, crank), (coupler, self._bar("A", "B"))]
 
     def _pivot(self, named: dict[str, Formula], *, even: bool) -> None:
         """Add how far the crank's pivot is off the chord, and for a crank-rocker the ground."""
@@ -445,8 +445,8 @@ class _Chapter:
         a, b = named["a"], named["b"]
         if "c" not in named:
             self.work.say(said("The rod is steepest where the crank is square to the guide."))
-            found = self.work.let(Symbol("μ"), arccos((a + named["e"]) / b), ANGLE)
-            self.compared.append((found, least))
+            angle = self.work.let(Symbol("μ"), arccos((a + named["e"]) / b), ANGLE)
+            self.compared.append((angle, least))
             return
         c, d = named["c"], named["d"]
         self.work.say(
@@ -454,10 +454,10 @@ class _Chapter:
         )
         for n, reach in (("1", d - a), ("2", d + a)):
             corner = arccos((square(b) + square(c) - square(reach)) / (TWO * b * c))
-            found = self.work.let(Symbol("μ", n), corner, ANGLE)
-            if abs(min(found.value, 180 - found.value) - least) < 1e-3:
-                true = least if found.value <= 90 else 180 - least
-                self.compared.append((found, true))
+            angle = self.work.let(Symbol("μ", n), corner, ANGLE)
+            if abs(min(angle.value, 180 - angle.value) - least) < 1e-3:
+                true = least if angle.value <= 90 else 180 - least
+                self.compared.append((angle, true))
 
 
 _MET_BY_TRAVEL = to_say(

@@ -17,21 +17,21 @@ _NEAR = 0.02
 """The distance from a vector's end, in centimetres, below which a joint is that end."""
 
 
-def tikz(found: Solution) -> str:
+def tikz(solution: Solution) -> str:
     """Return the vectors of all loops with their names, and their joints with theirs; "" without a loop."""
-    return "\n".join(_lines(found)) if found.loops else ""
+    return "\n".join(_lines(solution)) if solution.loops else ""
 
 
-def _lines(found: Solution) -> Iterator[str]:
-    ends = np.array([(one.begin, one.end) for one in found.arrows])
+def _lines(solution: Solution) -> Iterator[str]:
+    ends = np.array([(one.begin, one.end) for one in solution.arrows])
     scale = min(_WIDE / max(float(np.ptp(ends.real)), 1e-9), _HIGH / max(float(np.ptp(ends.imag)), 1e-9))
     yield r"\begin{center}\begin{tikzpicture}[>=latex]"
-    for one in found.arrows:
+    for one in solution.arrows:
         begin, end, name = _at(scale * one.begin), _at(scale * one.end), LATEX.symbol(one.symbol)
         yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${name}$}} {end};"
-    for name, at in found.places.items():
+    for name, at in solution.places.items():
         if np.abs(ends - at).min() * scale < _NEAR:
-            fill = "black" if found.request.scene.linkage.joint(name).fixed else "white"
+            fill = "black" if solution.request.scene.linkage.joint(name).fixed else "white"
             label = f"node[below right] {{{LATEX.name(name)}}}"
             yield rf"\draw[fill={fill}] {_at(scale * at)} circle[radius=2pt] {label};"
     yield r"\end{tikzpicture}\end{center}"
@@ -45,15 +45,15 @@ _PULL, _COUPLE = "magenta!80!black", "brown"
 _BAR = "line width=6pt,line join=round,line cap=round,gray!35"
 
 
-def free_tikz(found: Solution) -> str:
+def free_tikz(solution: Solution) -> str:
     """Return the bodies free, one beside the other, and of three forces their triangle; "" for none."""
-    scale = _BODY / max(spread(found), 1e-12)
-    bodies = [picture for body in panels(found) for picture in _free_body(found, body, scale)]
+    scale = _BODY / max(spread(solution), 1e-12)
+    bodies = [picture for body in panels(solution) for picture in _free_body(solution, body, scale)]
     return "\n".join((r"\begin{center}", *bodies, r"\end{center}")) if bodies else ""
 
 
-def _free_body(found: Solution, body: FreeBody, scale: float) -> Iterator[str]:
-    places = {name: scale * at for name, at in joints_of(found, body).items()}
+def _free_body(solution: Solution, body: FreeBody, scale: float) -> Iterator[str]:
+    places = {name: scale * at for name, at in joints_of(solution, body).items()}
     arrows = [(name, scale * foot, scale * foot + _FORCE * way) for name, foot, way in pulls(body)]
     corners, middle = [*places.values()], sum(places.values()) / len(places)
     lines = [*_outline(corners), *_couples(body, middle)]
@@ -63,7 +63,7 @@ def _free_body(found: Solution, body: FreeBody, scale: float) -> Iterator[str]:
         lines += [_node(at + _OFF * _clear_way(ways), LATEX.name(name), "black")]
     for name, foot, head in arrows:
         lines += [_arrow(foot, head), _node(head + _beyond(head - foot), _name(name), _PULL)]
-    title = plain_latex(titled(found, body))
+    title = plain_latex(titled(solution, body))
     lines.append(rf"\node[above,font=\bfseries] at (current bounding box.north) {{{title}}};")
     yield _picture(lines)
     if sides := triangle(body):

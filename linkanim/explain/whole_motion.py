@@ -102,10 +102,10 @@ def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
 
     `work` has the positions of a pose, whose symbols are used.
     """
-    found = _WholeMotion(scene, work)
+    motion = _WholeMotion(scene, work)
     chapters = [
-        Chapter(said("Range of the input"), tuple(found.reach())),
-        Chapter(said("Dead centres and time ratio"), tuple(found.dead_centres())),
+        Chapter(said("Range of the input"), tuple(motion.reach())),
+        Chapter(said("Dead centres and time ratio"), tuple(motion.dead_centres())),
     ]
     return tuple(chapter for chapter in chapters if chapter.steps)
 
@@ -159,13 +159,13 @@ class _WholeMotion:
             self._step(said("Closure at {joint}", joint=marked(one.name)), partial(self._of, one))
             for one in self.dyads
         ]
-        found = [step for step in steps if step]
-        yield from found
-        if found or not self.info.full_turn:
+        taken = [step for step in steps if step]
+        yield from taken
+        if taken or not self.info.full_turn:
             self.work.items.clear()
             goes = self.info.motion_said
             self.work.say(
-                said("{found}.", found=goes) if found else said("{found}, as is given.", found=goes)
+                said("{found}.", found=goes) if taken else said("{found}, as is given.", found=goes)
             )
             if self.info.grashof:
                 known = {"sums": self.info.grashof, "class_name": self.info.class_said}
@@ -175,8 +175,8 @@ class _WholeMotion:
     def _of(self, joint: Joint) -> None:
         if self.four_bar is not None and joint.name == self.four_bar.joint:
             self._limits_of_bars(self._bars(self.four_bar))
-        elif (found := self._slider_crank(joint)) is not None:
-            self._limits_of_slider(found)
+        elif (bars := self._slider_crank(joint)) is not None:
+            self._limits_of_slider(bars)
         elif (reach := KINDS[type(joint)].reach) is not None:
             self._bounded(joint, reach)
 
@@ -264,19 +264,19 @@ class _WholeMotion:
             joint, crank, work.length(joint.end, joint.name, joint.length), beside, guide.angle
         )
 
-    def _beside(self, found: _SliderCrank) -> Formula:
+    def _beside(self, bars: _SliderCrank) -> Formula:
         """Add how far the pivot lies left of the guide, and return its symbol."""
-        return self.work.let(Symbol("c", found.joint.name), found.beside, LENGTH)
+        return self.work.let(Symbol("c", bars.joint.name), bars.beside, LENGTH)
 
     @staticmethod
-    def _where_beside(found: _SliderCrank) -> str:
-        if found.beside.constant == 0:
+    def _where_beside(bars: _SliderCrank) -> str:
+        if bars.beside.constant == 0:
             return said("The crank's pivot lies on the line of the guide.")
         return said("c is the distance of the crank's pivot from the guide, positive to its left.")
 
-    def _limits_of_slider(self, found: _SliderCrank) -> None:
+    def _limits_of_slider(self, bars: _SliderCrank) -> None:
         """Add whether the rod reaches the guide from everywhere on the crank's circle."""
-        work, joint, crank, rod = self.work, found.joint, found.crank, found.rod
+        work, joint, crank, rod = self.work, bars.joint, bars.crank, bars.rod
         work.say(
             sentences(
                 said(
@@ -284,11 +284,11 @@ class _WholeMotion:
                     "rod's length.",
                     end=marked(joint.end),
                 ),
-                self._where_beside(found),
+                self._where_beside(bars),
                 said("The greatest distance of {end} from the guide is:", end=marked(joint.end)),
             )
         )
-        beside = self._beside(found)
+        beside = self._beside(bars)
         farthest = work.let(Symbol("n", "max"), crank + (beside if beside.value >= 0 else -beside), LENGTH)
         if rod.value - farthest.value > _TOUCHES * rod.value:
             work.say(
@@ -317,32 +317,32 @@ class _WholeMotion:
             sine = (reach - beside) / crank
             if abs(sine.value) <= 1 - _ONE:
                 corner = work.let(Symbol("ψ", index), arcsin(sine), ANGLE)
-                for sign, angle in (("1", found.guide + corner), ("2", found.guide + _STRAIGHT - corner)):
+                for sign, angle in (("1", bars.guide + corner), ("2", bars.guide + _STRAIGHT - corner)):
                     work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
 
     def _bounded(self, joint: Joint, reach: Callable[[Any, Work], Reach | None]) -> None:
         """Add the bounds within which a dyad closes, and how near the motion comes to them."""
-        found = reach(joint, self.work)
-        if found is None:
+        distance = reach(joint, self.work)
+        if distance is None:
             return
 
         def apart(phases: np.ndarray) -> np.ndarray:
             at = self.scene.solve(phase=phases, derivatives=0).position
-            return found.of({name: place[:, 0] + 1j * place[:, 1] for name, place in at.items()})
+            return distance.of({name: place[:, 0] + 1j * place[:, 1] for name, place in at.items()})
 
-        self._say_bounds(joint.name, found, self._ends(apart))
+        self._say_bounds(joint.name, distance, self._ends(apart))
 
     def _ends(self, function: Callable[[np.ndarray], np.ndarray]) -> tuple[float, float]:
         """Return the least and the greatest value over one true period."""
         mechanism = self.scene.mechanism
         places, step = mechanism.sampled, math.tau / mechanism.assembly.samples
         values = function(places)
-        found = []
+        ends = []
         for sign in (-1, 1):
             at = float(places[np.nanargmax(sign * values)])
             best = highest(partial(_signed, function, sign), at, step)
-            found.append(float(function(np.array([best]))[0]))
-        return found[0], found[1]
+            ends.append(float(function(np.array([best]))[0]))
+        return ends[0], ends[1]
 
     def _say_bounds(self, joint: str, reach: Reach, ends: tuple[float, float]) -> None:
         unit, least = self.work.scale.unit, _NEAR * self.scene.linkage.longest
@@ -385,9 +385,9 @@ class _WholeMotion:
 
     def _of_slider(self, slider: Body) -> None:
         joint = self.scene.linkage.joint(str(slider.slider))
-        found = self._slider_crank(joint) if self._steady and not self.info.change_points else None
-        if found is not None:
-            self._dead_centres_of_slider(found)
+        bars = self._slider_crank(joint) if self._steady and not self.info.change_points else None
+        if bars is not None:
+            self._dead_centres_of_slider(bars)
         else:
             self._searched(slider, self.info.dead_centres, self.info.stroke or 0.0)
 
@@ -413,20 +413,20 @@ class _WholeMotion:
         bar = self.four_bar
         return bar is not None and bar.margin > 0 and bar.shortest == "input" and not bar.change_points
 
-    def _dead_centres_of_slider(self, found: _SliderCrank) -> None:
+    def _dead_centres_of_slider(self, bars: _SliderCrank) -> None:
         """Add stroke and time ratio of a slider-crank whose crank turns fully."""
-        work, crank, rod = self.work, found.crank, found.rod
+        work, crank, rod = self.work, bars.crank, bars.rod
         work.say(
             sentences(
                 said("The slider turns back where crank and rod lie in one line, stretched and folded."),
-                self._where_beside(found),
+                self._where_beside(bars),
                 said(
                     "Its two extreme positions s, the stroke H, and the angles λ of crank and rod to the "
                     "guide there:"
                 ),
             )
         )
-        beside = self._beside(found)
+        beside = self._beside(bars)
         square_ = square(beside)
         ends = [
             work.let(Symbol("s", index), sqrt(square(reach) - square_), LENGTH)
@@ -513,7 +513,7 @@ class _WholeMotion:
         by_angle = self._steady and scene.linkage.drive.coordinate.is_angle
         inputs = motion.coordinate if by_angle else phases
         places = [
-            self._found(
+            self._numeric(
                 Symbol("θ" if by_angle else "φ", end),
                 float(at) % math.tau,
                 ANGLE,
@@ -522,7 +522,7 @@ class _WholeMotion:
             for at, end in zip(inputs, _ENDS, strict=True)
         ]
         ends = [
-            self._found(Symbol(letter, end), value, measure, said(_AT_END[of][end]))
+            self._numeric(Symbol(letter, end), value, measure, said(_AT_END[of][end]))
             for end, value in zip(_ENDS, (first, first + stroke), strict=True)
         ]
         work.let(Symbol("H") if sliding else Symbol("ψ", "swing"), ends[1] - ends[0], measure)
@@ -558,17 +558,17 @@ class _WholeMotion:
                 )
             )
 
-    def _found(self, symbol: Symbol, value: float, measure: Powers, words: str) -> Formula:
+    def _numeric(self, symbol: Symbol, value: float, measure: Powers, words: str) -> Formula:
         """Add a number found by search as a symbol's value, and return it."""
         shown = rounded(math.degrees(value) if measure.angle else value, self.work.scale.decimals(measure))
-        found = Formula("leaf", symbol=symbol, shown=shown, in_degrees=measure.angle)
-        self.work.items.append(Given(found, self.work.scale.unit_of(measure), words))
-        return found
+        leaf = Formula("leaf", symbol=symbol, shown=shown, in_degrees=measure.angle)
+        self.work.items.append(Given(leaf, self.work.scale.unit_of(measure), words))
+        return leaf
 
     def _ratio(self, slow: Formula) -> None:
         """Add the angle of the slow way, and how much longer it takes than the quick one."""
-        found = self.work.let(Symbol("θ", "slow"), slow, ANGLE)
-        self.work.let(Symbol("T", "R"), found / (_ROUND - found), RATIO)
+        slow_angle = self.work.let(Symbol("θ", "slow"), slow, ANGLE)
+        self.work.let(Symbol("T", "R"), slow_angle / (_ROUND - slow_angle), RATIO)
 
 
 def is_searched(item: Item) -> bool:

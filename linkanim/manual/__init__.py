@@ -62,25 +62,25 @@ def sections() -> tuple[ManualSection, ...]:
 
 
 def _sections(chapter: str) -> Iterator[ManualSection]:
-    title, found, level, heading, in_code = "", [""], 0, "", False
+    title, lines, level, heading, in_code = "", [""], 0, "", False
     for line in (FOLDER / f"{chapter}.md").read_text(encoding="utf-8").splitlines():
         in_code ^= line.startswith("```")
         head = None if in_code else re.match(r"(#{1,3}) (.+)", line)
         if head is None:
-            found.append(line)
+            lines.append(line)
             continue
         if level:
-            yield ManualSection(chapter, title, level, heading, "\n".join(found).strip("\n"))
-        level, heading, found = len(head[1]), head[2], []
+            yield ManualSection(chapter, title, level, heading, "\n".join(lines).strip("\n"))
+        level, heading, lines = len(head[1]), head[2], []
         title = title or _words(heading)
-    yield ManualSection(chapter, title, level, heading, "\n".join(found).strip("\n"))
+    yield ManualSection(chapter, title, level, heading, "\n".join(lines).strip("\n"))
 
 
 def search(words: Sequence[str]) -> list[ManualSection]:
     """Return the sections that contain all words, upper or lower case, the most relevant first."""
     sought = [word for text in words for word in text.lower().split()]
     ranked = [(_rank(one, sought), one) for one in sections()]
-    return [one for rank, one in sorted(ranked, key=lambda found: -found[0]) if rank]
+    return [one for rank, one in sorted(ranked, key=lambda match: -match[0]) if rank]
 
 
 def _rank(section: ManualSection, words: Sequence[str]) -> int:
@@ -201,20 +201,20 @@ def _inline(text: str, chapter: str) -> str:
         kept.append(html)
         return f"\0{len(kept) - 1}\0"
 
-    text = _CODE.sub(lambda found: keep(f"<code>{escape(found[2])}</code>"), text)
-    text = re.sub(r"\\([^A-Za-z0-9\s])", lambda found: keep(escape(found[1])), text)
-    text = _LINK.sub(lambda found: keep(_linked(found, chapter)), text)
+    text = _CODE.sub(lambda match: keep(f"<code>{escape(match[2])}</code>"), text)
+    text = re.sub(r"\\([^A-Za-z0-9\s])", lambda match: keep(escape(match[1])), text)
+    text = _LINK.sub(lambda match: keep(_linked(match, chapter)), text)
     text = escape(text, quote=False)
     text = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", text)
     text = re.sub(r"\*(.+?)\*", r"<em>\1</em>", text)
     while "\0" in text:
-        text = re.sub(r"\0(\d+)\0", lambda found: kept[int(found[1])], text)
+        text = re.sub(r"\0(\d+)\0", lambda match: kept[int(match[1])], text)
     return text
 
 
-def _linked(found: re.Match[str], chapter: str) -> str:
+def _linked(match: re.Match[str], chapter: str) -> str:
     """Return a picture embedded in the page, or a link to another section; for other links the words."""
-    picture, words, target = found.groups()
+    picture, words, target = match.groups()
     if picture:
         data = b64encode((FOLDER / target).read_bytes()).decode()
         return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">'
@@ -227,8 +227,8 @@ def _linked(found: re.Match[str], chapter: str) -> str:
 
 def _words(text: str) -> str:
     """Return a line without its markup."""
-    text = _LINK.sub(lambda found: f"[picture: {found[2]}]" if found[1] else found[2], text)
-    text = re.sub(r"\*\*(.+?)\*\*|\*(.+?)\*", lambda found: found[1] or found[2], text)
+    text = _LINK.sub(lambda match: f"[picture: {match[2]}]" if match[1] else match[2], text)
+    text = re.sub(r"\*\*(.+?)\*\*|\*(.+?)\*", lambda match: match[1] or match[2], text)
     return re.sub(r"\\([^A-Za-z0-9\s])", r"\1", _CODE.sub(r"\2", text))
 
 

@@ -408,7 +408,7 @@ def _divide(a: Value, b: Value) -> Value:
     return 1.0 if a is b else graph.node("div", a, b)
 
 
-def beside(number: Value, value: Value) -> Value:
+def recorded_with(number: Value, value: Value) -> Value:
     """Return a number as the value's graph records it; unchanged where the value is a float."""
     if isinstance(number, Expr):
         return number

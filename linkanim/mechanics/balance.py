@@ -162,10 +162,10 @@ def _moment(linkage: Linkage, body: Body, pivot: str) -> complex:
     return body.mass * (centre if body.joints[0] == pivot else _length(linkage, body) - centre)
 
 
-Found = tuple[tuple[Body, Body, Body], tuple[float, float, float], tuple[str, str, str]]
+FourBar = tuple[tuple[Body, Body, Body], tuple[float, float, float], tuple[str, str, str]]
 
 
-def _four_bar(linkage: Linkage) -> Found | None:
+def _four_bar(linkage: Linkage) -> FourBar | None:
     """Return a four-bar's crank, coupler and rocker, their lengths, and where each begins, or None."""
     moving = [joint for joint in linkage.joints if joint.dyad or joint.grouped or isinstance(joint, Crank)]
     crank, dyads = linkage.driven.joint, [joint for joint in moving if isinstance(joint, RRR)]

@@ -33,13 +33,14 @@ def group_closures(linkage: Linkage) -> list[dict[str, complex]]:
     closures: list[Array] = []
     for one in (system.start, *_solved(system)):
         if not any(
-            np.abs(_told(system, one) - _told(system, other)).max() < ONE_CLOSURE for other in closures
+            np.abs(_pose_numbers(system, one) - _pose_numbers(system, other)).max() < ONE_CLOSURE
+            for other in closures
         ):
             closures.append(one)
     return [_places(linkage, system, one) for one in closures]
 
 
-def _told(system: LinkEquations, y: Array) -> NDArray[np.complex128]:
+def _pose_numbers(system: LinkEquations, y: Array) -> NDArray[np.complex128]:
     """Return the places of links, and their directions, whole turns left out."""
     count = 3 * system.links
     return np.concatenate([y[0:count:3], y[1:count:3], np.exp(1j * y[2:count:3])])

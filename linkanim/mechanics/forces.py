@@ -96,7 +96,9 @@ def input_effort(motion: Any) -> Any:
     effort = np.where(stops, np.where(still, starting, np.inf), effort)
     near = idle(motion, np.asarray(near & ~(stops & still)))
     if np.any(near):
-        effort[near] = beside(motion, near, lambda there: _quotient(there, _power(there, _MOVING), _MOVING))
+        effort[near] = interpolated(
+            motion, near, lambda there: _quotient(there, _power(there, _MOVING), _MOVING)
+        )
     return effort[()]
 
 
@@ -125,7 +127,7 @@ def idle(motion: Any, near: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return is_idle
 
 
-def beside(motion: Any, where: NDArray[np.bool_], read: Callable[[Any], Any]) -> Any:
+def interpolated(motion: Any, where: NDArray[np.bool_], read: Callable[[Any], Any]) -> Any:
     """Return what is read of a motion, interpolated at some of its instants from both sides."""
     step, weights = _BESIDE[0] / motion.mechanism.assembly.quickest, _BESIDE[1]
     phase = np.broadcast_to(motion.phase, where.shape)[where]

@@ -32,7 +32,7 @@ import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.forces import beside, idle, near_ends
+from linkanim.mechanics.forces import idle, interpolated, near_ends
 from linkanim.mechanics.groups import GroupLink, GroupPoint, GroupSlide, GroupSlider, LinkGroup
 from linkanim.mechanics.linkage import (
     RPP,
@@ -242,7 +242,7 @@ def _scaled(vector: Vector, factor: Any) -> Vector:
     return vector[0] * factor, vector[1] * factor
 
 
-def _left(vector: Vector) -> Vector:
+def _turned_left(vector: Vector) -> Vector:
     return -vector[1], vector[0]
 
 
@@ -321,7 +321,7 @@ class _Balance:
     def guide(self, name: str, line: Line) -> None:
         """Let a block be held by its guide against all that acts on it across the line."""
         u, carrier = self.along(line)
-        place, normal = self.place(name), _left(u)
+        place, normal = self.place(name), _turned_left(u)
         force, moment = -dot(self.total(name), normal), -self.moment(name, place)
         self.guides[name] = force, moment
         self.apply(carrier, place, _scaled(normal, -force))
@@ -361,7 +361,7 @@ def _bar_to_slider(joint: RRP, balance: _Balance) -> None:
     along = dot(_sum(pull, balance.total(block)), u)
     moment = -balance.moment(bar, balance.place(joint.end)) - along * cross(arm, u)
     across, _ = balance.quotient((moment, 0.0), balance.lever(joint), (joint.length,))
-    force = _sum(_scaled(u, along), _scaled(_left(u), across))
+    force = _sum(_scaled(u, along), _scaled(_turned_left(u), across))
     balance.meet(joint.name, bar, force)
     balance.meet(joint.name, block, _difference(pull, force))
     balance.guide(joint.name, joint.line)
@@ -374,7 +374,7 @@ def _slot(joint: RPR, balance: _Balance) -> None:
     u = _scaled(between(balance.motion.position, (joint.pivot, joint.name)), 1.0 / joint.length)
     moment = -balance.moment(bar, balance.place(joint.pivot))
     push, _ = balance.quotient((moment, 0.0), balance.lever(joint), (joint.length,))
-    balance.meet(joint.through, bar, _scaled(_left(u), push))
+    balance.meet(joint.through, bar, _scaled(_turned_left(u), push))
     balance.hang(bar, joint.pivot)
 
 
@@ -441,7 +441,7 @@ def _mesh(joint: Crank, moment: Any, balance: _Balance) -> None:
     u = _scaled(line, 1.0 / distance)
     tangential = over(moment, distance * (share - 1.0))
     radial = abs(tangential) * math.tan(gear.pressure_angle)
-    force = _sum(_scaled(_left(u), tangential), _scaled(u, radial if share < 1.0 else -radial))
+    force = _sum(_scaled(_turned_left(u), tangential), _scaled(u, radial if share < 1.0 else -radial))
     place = _sum(own, _scaled(line, share - 1.0))
     balance.apply(bar, place, force)
     balance.apply(0 if still else other, place, _scaled(force, -1.0))
@@ -485,7 +485,7 @@ def _together(joint: GroupPoint, balance: _Balance) -> None:
         for name in group.points
     }
     moving = [*group.free]
-    unknown = list(_held(group, links, rest, balance))
+    unknown = list(_constraints(group, links, rest, balance))
     rows = 3 * len(moving)
     assert len(unknown) == rows
     shape, size_of = np.shape(balance.motion.phase), balance.linkage.longest
@@ -518,7 +518,7 @@ def _together(joint: GroupPoint, balance: _Balance) -> None:
         balance.meet(name, member, balance.pins[name])
 
 
-def _held(
+def _constraints(
     group: LinkGroup, links: Mapping[str, Member], rest: Mapping[str, Member], balance: _Balance
 ) -> Iterator[_Unknown]:
     """Yield what holds the links of a group: pins, lines, gears, and a motor between two of them."""
@@ -531,7 +531,7 @@ def _held(
                 yield _at_pin(name, place, member, axis, rest, balance)
     for slide in group.slides:
         along, place = _slid_along(slide, group, balance), balance.place(slide.point)
-        normal, block, carrier = _left(along), links[slide.link], links[slide.on]
+        normal, block, carrier = _turned_left(along), links[slide.link], links[slide.on]
         if slide.name == group.driven:
             yield _thrust(block, carrier, place, along, balance)
         if slide.turns:
@@ -739,9 +739,9 @@ def _reactions(motion: Any) -> Reactions:
     free = np.broadcast_to(idle(motion, ends) | balance.idle, unknowns[0].shape)
     if np.any(free):
         unknowns = [np.array(row) for row in unknowns]
-        for row, known in zip(unknowns, beside(motion, free, _stacked), strict=True):
+        for row, known in zip(unknowns, interpolated(motion, free, _stacked), strict=True):
             row[free] = known
-    return _told(balance, unknowns)
+    return _as_reactions(balance, unknowns)
 
 
 def _stacked(motion: Any) -> Array:
@@ -763,7 +763,7 @@ def _reach(linkage: Linkage) -> float:
     return linkage.longest + max((math.hypot(*pin.position) for pin in linkage.pins), default=0.0)
 
 
-def _told(balance: _Balance, unknowns: list[Array]) -> Reactions:
+def _as_reactions(balance: _Balance, unknowns: list[Array]) -> Reactions:
     """Return the numbers in their places: 0 for rounding errors, infinite where they are unbounded."""
     linkage, metre, phase = balance.linkage, balance.linkage.metre, np.asarray(balance.motion.phase)
     nowhere = np.isnan(phase) | balance.nowhere
@@ -775,17 +775,17 @@ def _told(balance: _Balance, unknowns: list[Array]) -> Reactions:
     own = np.where(np.isfinite(balance.noise), balance.noise, 0.0)
     noise = np.maximum(own, ROUNDING * largest)
 
-    def told(number: Any, least: Any) -> Any:
+    def without_rounding(number: Any, least: Any) -> Any:
         if not whole:
             number = np.where(nowhere, np.nan, np.where(np.isnan(number), np.inf, number))
         value = cleaned(number, least)
         return value if np.ndim(value) else float(value)
 
     def force(least: Any = noise) -> Any:
-        return told(next(numbers), least)
+        return without_rounding(next(numbers), least)
 
     def moment(least: Any = noise) -> Any:
-        return told(next(numbers) * metre, least * (linkage.longest * metre))
+        return without_rounding(next(numbers) * metre, least * (linkage.longest * metre))
 
     numbers = iter(unknowns)
     joints = {
@@ -808,6 +808,6 @@ def _told(balance: _Balance, unknowns: list[Array]) -> Reactions:
         {balance.members.names[block_of(linkage, name)]: guide for name, guide in guides.items()},
         gears,
         (force(own), force(own)),
-        told(next(numbers) * metre, own * (_reach(linkage) * metre)),
+        without_rounding(next(numbers) * metre, own * (_reach(linkage) * metre)),
         moment() if linkage.drive.actuator.effort[0] == "torque" else force(),
     )

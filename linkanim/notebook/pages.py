@@ -43,7 +43,7 @@ def scene_html(scene: Scene) -> str:
     svg = b64encode(Figured(scene, _FIGURE, Look(names=1, hud=False)).document().encode()).decode()
     size, source = f"width='{_FIGURE[0]}' height='{_FIGURE[1]}'", f"data:image/svg+xml;base64,{svg}"
     figure = f"<img alt='{escape(scene.title)}' {size} src='{source}'/>"
-    return _beside(f"<div>{_moving(scene)}{figure}</div>", scene._repr_html_())
+    return _side_by_side(f"<div>{_moving(scene)}{figure}</div>", scene._repr_html_())
 
 
 def _moving(scene: Scene) -> str:
@@ -63,10 +63,10 @@ def motion_html(motion: Motion) -> str:
     table = _table(motion)
     if np.ndim(motion.phase) != 1 or len(motion.phase) < 2:
         return table
-    return _beside(_chart(motion, _telling(motion)), table)
+    return _side_by_side(_chart(motion, _telling(motion)), table)
 
 
-def _beside(picture: str, table: str) -> str:
+def _side_by_side(picture: str, table: str) -> str:
     return f"<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:start'>{picture}{table}</div>"
 
 
@@ -81,7 +81,7 @@ def _quantities(motion: Motion) -> Mapping[str, Quantity]:
     return register(solved.linkage, link_names(solved, lambda: turning_bodies(solved)))
 
 
-def _shown(motion: Motion) -> Iterator[Quantity]:
+def _tabulated(motion: Motion) -> Iterator[Quantity]:
     """Yield the quantities of the table: positions of moving joints, angles or travels of bodies."""
     linkage, known = motion.mechanism.linkage, _quantities(motion)
     for joint in linkage.joints:
@@ -93,7 +93,11 @@ def _shown(motion: Motion) -> Iterator[Quantity]:
 
 def _table(motion: Motion) -> str:
     """Return a table of the input, the phase, joints and bodies, with a row for each instant."""
-    unit, coordinate, shown = _unit(motion), motion.mechanism.linkage.drive.coordinate, list(_shown(motion))
+    unit, coordinate, shown = (
+        _unit(motion),
+        motion.mechanism.linkage.drive.coordinate,
+        list(_tabulated(motion)),
+    )
     titles = [f"input {coordinate.name} ({coordinate.shown_unit(unit)})", "phase (°)"]
     titles += [one.headed(unit) for one in shown]
     inputs = coordinate.shown(motion.coordinate), np.degrees(motion.phase)

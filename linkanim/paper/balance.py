@@ -51,11 +51,11 @@ class BalanceChart(DrawnPage):
     @property
     def words(self) -> str:
         """How large both get, without and with counterweights."""
-        pairs = zip(_STRIPS, self._told, strict=True)
+        pairs = zip(_STRIPS, self._in_words, strict=True)
         return " ".join(f"{name[:1].upper()}{name[1:]}: {told}." for (name, _), told in pairs)
 
     @property
-    def _told(self) -> list[str]:
+    def _in_words(self) -> list[str]:
         told = []
         for n, (_, unit) in enumerate(_STRIPS):
             before, after = (one.greatest[n] for one in self.both)
@@ -80,7 +80,7 @@ class BalanceChart(DrawnPage):
         for n, (name, unit) in enumerate(_STRIPS):
             strip = Rect(whole.x, whole.y + 1.4 * pen.text + n * high, whole.width, high)
             values = [curve[n] for curve in curves]
-            yield from self._strip(strip, f"{name} ({unit}): {self._told[n]}", values, foot=n == 1)
+            yield from self._strip(strip, f"{name} ({unit}): {self._in_words[n]}", values, foot=n == 1)
 
     def _strip(self, rect: Rect, title: str, values: Sequence[Floats], *, foot: bool) -> Iterator[Item]:
         pen, theme = self.pen, self.pen.theme

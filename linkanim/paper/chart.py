@@ -107,9 +107,9 @@ class Annotations:
         if named_at_ends(self.curves):
             ends = [end for pair in drawn for end in self._end(*pair)]
         at_edge = [end for end in ends if end.at.real > area.right - 1]
-        yield from self._beside(area, at_edge)
+        yield from self._names_beside(area, at_edge)
         within = [end for end in ends if end not in at_edge]
-        yield from self._placed(drawn, [*within, *(peak for pair in marked for peak in self._peaks(*pair))])
+        yield from self._named(drawn, [*within, *(peak for pair in marked for peak in self._peaks(*pair))])
 
     def _end(self, plot: Plot, curve: Curve) -> Iterator[_Words]:
         """Yield the name of a curve, to stand where the curve is furthest to the right."""
@@ -125,7 +125,7 @@ class Annotations:
             at, text = complex(plot.pixels(peak.x, peak.value)), _peak_words(plot, peak, self.curves, curve)
             yield _Words(curve, at, text, _about(at, text, self.pen, high=n == 0), dotted=True)
 
-    def _beside(self, area: Rect, ends: list[_Words]) -> Iterator[Item]:
+    def _names_beside(self, area: Rect, ends: list[_Words]) -> Iterator[Item]:
         """Yield names to the right of a plot, one per line, as near to their curves' ends as possible."""
         pen, step = self.pen, _STEP * self.pen.small
         shown = sorted(ends, key=lambda end: end.at.imag)[: max(int(area.height / step), 1)]
@@ -136,7 +136,7 @@ class Annotations:
             yield Layer(self.colour(end.curve), line)
             yield Caption(end.text, (begin.real, level - 0.5 * pen.small), pen.small, pen.theme.ink)
 
-    def _placed(self, drawn: Sequence[InPlot], words: list[_Words]) -> Iterator[Item]:
+    def _named(self, drawn: Sequence[InPlot], words: list[_Words]) -> Iterator[Item]:
         """Yield words where there is room, each with its dot and, where it is far off, a line to that."""
         pen, half = self.pen, 0.6 * self.pen.line
         tracks = [(curve, line) for plot, curve in drawn for line in _tracks(plot, curve)]

@@ -140,13 +140,13 @@ def curves_of(
     periods = min(round(scene.period / tau), _MOST_PERIODS)
     cycle = scene.cycle(scene.mechanism.count(SAMPLES * periods))
     of_each = [_of(scene, one, pace, over, cycle) for one in known for pace in paces]
-    found = tuple(chain.from_iterable(of_each))
+    curves = tuple(chain.from_iterable(of_each))
     longest = max((course(scene, pace.speed, over) for pace in paces), key=lambda one: one.span)
     if _there_and_back(scene, over):
         low, high = map(degrees, scene.info.input_range)
-        return Curves(scene, found, input_title(scene), low, high, "°", (), over)
+        return Curves(scene, curves, input_title(scene), low, high, "°", (), over)
     marks = longest.marks if len(paces) == 1 else ()
-    return Curves(scene, found, longest.title, 0.0, longest.span, longest.unit, marks, over)
+    return Curves(scene, curves, longest.title, 0.0, longest.span, longest.unit, marks, over)
 
 
 def within_a_turn(curves: Curves) -> Curves:
@@ -308,8 +308,8 @@ class MeasuredCurve:
     def percent(self) -> Floats:
         """Return the differences in percent of our values."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            found: Floats = 100 * self.differences / abs(self.ours)
-        return found
+            percent: Floats = 100 * self.differences / abs(self.ours)
+        return percent
 
     def table(self, length_unit: str) -> str:
         """Return both and their difference, in the unit and in percent of ours, in aligned columns."""
@@ -342,24 +342,24 @@ def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
     read, a line lacks two finite numbers, or a comma may be a decimal mark or a separator.
     """
     where = named(path)
-    found = read_numbers(_TABLE_FILE.read(path, where), where, f"{_WORDS[over]}, value")
-    for line, numbers in found.rows:
+    read = read_numbers(_TABLE_FILE.read(path, where), where, f"{_WORDS[over]}, value")
+    for line, numbers in read.rows:
         if len(numbers) > 2 and all(map(float.is_integer, numbers)):
             raise BadInput(
                 f"{where}: line {line} has {len(numbers)} whole numbers: a comma in it is a decimal mark or "
                 "stands between columns; put semicolons between the columns"
             )
-    first, n = found.heading[0] if found.heading else "", 1
-    if len(found.heading) > 2:
-        if one.token not in found.heading[1:]:
+    first, n = read.heading[0] if read.heading else "", 1
+    if len(read.heading) > 2:
+        if one.token not in read.heading[1:]:
             raise BadInput(
-                f"{where}: none of its {len(found.heading)} columns is headed {one.token}; head one so, "
+                f"{where}: none of its {len(read.heading)} columns is headed {one.token}; head one so, "
                 "or give two columns"
             )
-        n = found.heading.index(one.token)
-        _refuse_ragged(found, where)
+        n = read.heading.index(one.token)
+        _refuse_ragged(read, where)
     factor = np.degrees(1.0) if first == _OURS and one.unit == "rad" else 1.0
-    rows = (NumberRow(line, (row[0], factor * row[n])) for line, row in found.rows)
+    rows = (NumberRow(line, (row[0], factor * row[n])) for line, row in read.rows)
     return MeasuredTable(where, first, tuple(rows))
 
 
@@ -369,14 +369,14 @@ def read_tables(path: Path) -> dict[str, MeasuredTable]:
     BadInput as `read_table`, and where the columns have no names or a row has another number of cells.
     """
     where = named(path)
-    found = read_numbers(_TABLE_FILE.read(path, where), where, "angle, then a column for each quantity")
-    tokens = found.heading[1:]
+    numbers = read_numbers(_TABLE_FILE.read(path, where), where, "angle, then a column for each quantity")
+    tokens = numbers.heading[1:]
     if not tokens:
         raise BadInput(f"{where}: its columns have no names; head them, such as angle, 3.angular_velocity")
-    _refuse_ragged(found, where)
+    _refuse_ragged(numbers, where)
     return {
         token: MeasuredTable(
-            where, found.heading[0], tuple(NumberRow(line, (row[0], row[n])) for line, row in found.rows)
+            where, numbers.heading[0], tuple(NumberRow(line, (row[0], row[n])) for line, row in numbers.rows)
         )
         for n, token in enumerate(tokens, 1)
     }
@@ -393,10 +393,10 @@ def _refuse_ragged(table: NumberTable, where: str) -> None:
 def compared(
     scene: Scene, token: str, pace: Pace, table: MeasuredTable, label: str
 ) -> tuple[Curves, MeasuredCurve]:
-    """Return the curve of a quantity with a table beside it, over that one's input; errors as `beside`."""
+    """Return a quantity's curve with a table beside it, over that one's input; errors as `comparison`."""
     over: Over | None = "time" if _SECONDS.match(table.heading) else None
     curves = curves_of(scene, (token,), (pace,), over)
-    return curves, beside(curves, table, label)
+    return curves, comparison(curves, table, label)
 
 
 def usual_over(curves: Curves) -> Over:
@@ -404,7 +404,7 @@ def usual_over(curves: Curves) -> Over:
     return curves.over or ("angle" if curves.scene.linkage.drive.coordinate.is_angle else "time")
 
 
-def beside(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
+def comparison(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
     """Return a table beside the first curve, each of its rows solved exactly.
 
     OutOfRange for an angle that the input does not reach. BadInput where the first column is not what

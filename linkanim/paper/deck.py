@@ -105,10 +105,10 @@ def _parts(slides: Sequence[DeckSlide], height: int, *, titled: bool) -> Iterato
         yield f"ppt/notesSlides/_rels/notesSlide{n}.xml.rels", _relations(said)
 
 
-def _relations(found: Mapping[str, tuple[str, str]]) -> str:
+def _relations(relations: Mapping[str, tuple[str, str]]) -> str:
     lines = (
         f'<Relationship Id="{key}" Type="{_R}/{kind}" Target="{target}"/>'
-        for key, (kind, target) in found.items()
+        for key, (kind, target) in relations.items()
     )
     return f'{_HEAD}<Relationships xmlns="{_PACKAGE}/relationships">{"".join(lines)}</Relationships>'
 

@@ -72,7 +72,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 
     For an input that swings, half-way takes the place of the start, at which it rests.
     """
-    found = [Instant(0.0, "start") if scene.info.full_turn else Instant(pi / 2, "half-way")]
+    instants = [Instant(0.0, "start") if scene.info.full_turn else Instant(pi / 2, "half-way")]
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output and (output.slider or output.name not in scene.info.turning_links):
         place, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
@@ -80,13 +80,13 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
         curve = curves_of(scene, (f"{output.name}.{place}",), (pace,), "phase").curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
             phase = _at_rest(scene, (rate, output.name), float(np.radians(peak.x)))
-            found.append(Instant(phase, f"{words} {place} of {phrase(output, scene.info.link_names)}"))
-    return tuple(_together(found, scene.period))
+            instants.append(Instant(phase, f"{words} {place} of {phrase(output, scene.info.link_names)}"))
+    return tuple(_together(instants, scene.period))
 
 
-def _together(found: list[Instant], period: float) -> Iterator[Instant]:
+def _together(instants: list[Instant], period: float) -> Iterator[Instant]:
     """Yield instants; those at the phase of the first are merged with it."""
-    start, *others = found
+    start, *others = instants
     same = [one for one in others if abs(remainder(one.phase - start.phase, period)) < _SAME]
     yield start._replace(words=", ".join(one.words for one in (start, *same)))
     yield from (one for one in others if one not in same)
@@ -98,8 +98,8 @@ def _at_rest(scene: Scene, rate: tuple[str, str], near: float) -> float:
     `rate` is a rate's name in a motion, and the part that has it.
     """
     kind, part = rate
-    found = reversals(scene.mechanism, part, kind, near + _BESIDE * np.array([-1.0, 1.0]))
-    return float(found[0]) if len(found) else near
+    rests = reversals(scene.mechanism, part, kind, near + _BESIDE * np.array([-1.0, 1.0]))
+    return float(rests[0]) if len(rests) else near
 
 
 class Values:
@@ -128,8 +128,8 @@ def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int
     for quantity in values.scene.quantities.values():
         rows = sections.setdefault(_section(quantity), [])
         if len(quantity.columns) == 1:
-            found = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
-            rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), found))
+            values_at = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
+            rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), values_at))
     return sections
 
 
@@ -305,9 +305,12 @@ def _quantity(values: Values, part: str, measure: str) -> Quantity | None:
 def _columns(values: Values, family: Family, paces: tuple[Pace, ...], *, first: bool) -> Iterator[Column]:
     """Yield the columns: a measure that is the same at every speed once, if `first`; others at each."""
     for measure, symbol in family.measures.items():
-        found = [one for _, part in family.parts if (one := _quantity(values, part, measure))]
-        if found:
-            unit, order = found[0].shown_unit(values.scene.length_unit), max(one.order for one in found)
+        quantities = [one for _, part in family.parts if (one := _quantity(values, part, measure))]
+        if quantities:
+            unit, order = (
+                quantities[0].shown_unit(values.scene.length_unit),
+                max(one.order for one in quantities),
+            )
             if order or first:
                 yield from (Column(symbol, unit, measure, pace) for pace in (paces if order else (None,)))
 
@@ -318,14 +321,14 @@ def _table(
     unbounded, unknown = [], False
     groups: list[tuple[str, tuple[tuple[str, tuple[str, ...]], ...]]] = []
     for instant in instants:
-        found = {
+        values_of = {
             label: [_value(values, part, column, instant) for column in columns]
             for label, part in family.parts
         }
-        if any(isinf(value) for row in found.values() for value in row):
+        if any(isinf(value) for row in values_of.values() for value in row):
             unbounded.append(place_of(values.scene, instant._replace(words="")))
-        unknown |= any(isnan(value) for row in found.values() for value in row)
-        rows = tuple((label, tuple(rounded(one, digits) for one in row)) for label, row in found.items())
+        unknown |= any(isnan(value) for row in values_of.values() for value in row)
+        rows = tuple((label, tuple(rounded(one, digits) for one in row)) for label, row in values_of.items())
         groups.append((place_of(values.scene, instant), rows))
     notes = [f"∞: unbounded at {', '.join(unbounded)}."] if unbounded else []
     notes += ["–: has no value there, or is not given."] if unknown else []
@@ -340,9 +343,9 @@ def _value(values: Values, part: str, column: Column, instant: Instant) -> float
     quantity = _quantity(values, part, column.measure)
     if quantity is None:
         return nan
-    found = values.of(quantity, instant, column.pace or Pace(values.scene.linkage.drive.speed, ""))
+    value = values.of(quantity, instant, column.pace or Pace(values.scene.linkage.drive.speed, ""))
     # an angle is told within one turn
-    return found % 360 if quantity.unit == "rad" and quantity.order == 0 else found
+    return value % 360 if quantity.unit == "rad" and quantity.order == 0 else value
 
 
 # Which charts a hand-out has, in the order in which a report on a mechanism goes.
@@ -363,8 +366,8 @@ class PlannedChart(NamedTuple):
 
 def topics(values: Values, paces: tuple[Pace, ...]) -> dict[str, list[PlannedChart]]:
     """Return the charts by topic; nothing of what does not change, no topic without a chart."""
-    found = {title: [*charts] for title, charts in _ChartChoice(values, several=len(paces) > 1).topics()}
-    return {title: charts for title, charts in found.items() if charts}
+    charts_of = {title: [*charts] for title, charts in _ChartChoice(values, several=len(paces) > 1).topics()}
+    return {title: charts for title, charts in charts_of.items() if charts}
 
 
 @frozen

@@ -14,7 +14,7 @@ from linkanim.explain.free import couples, joints_of, panels, pulls, spread, tit
 from linkanim.explain.solution import Solution
 from linkanim.paper.illustration import page_pen
 from linkanim.paper.svg import svg
-from linkanim.paper.vectors import NamedPlace, around_joint, beside, captions
+from linkanim.paper.vectors import NamedPlace, around_joint, captions, name_places
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.chart import Pen
 from linkanim.picture.figure import figure
@@ -35,14 +35,14 @@ _OF = re.compile(r'id="(?:arrow|side)-([^"]*?)(?:-\d+)?"')
 """The ids of the groups of arrows, with their names."""
 
 
-def free_bodies_svg(found: Solution) -> str:
+def free_bodies_svg(solution: Solution) -> str:
     """Return the bodies free as SVG, each in a panel with its forces and couples.
 
     Each arrow says what it is of, as its name does.
     """
-    bodies = panels(found)
-    groups = [group for body in enumerate(bodies) for group in _panel(found, *body)]
-    drawn = svg(_size(len(bodies)), None, groups, title=f"Free bodies of {found.title}")
+    bodies = panels(solution)
+    groups = [group for body in enumerate(bodies) for group in _panel(solution, *body)]
+    drawn = svg(_size(len(bodies)), None, groups, title=f"Free bodies of {solution.title}")
     return _OF.sub(lambda arrow: f'data-of="{vector_of(arrow[1])}"', drawn)
 
 
@@ -50,14 +50,14 @@ def _size(count: int) -> tuple[int, int]:
     return _PANEL[0] * min(count, _ACROSS), _PANEL[1] * math.ceil(count / _ACROSS)
 
 
-def _panel(found: Solution, n: int, body: FreeBody) -> Iterator[Group]:
+def _panel(solution: Solution, n: int, body: FreeBody) -> Iterator[Group]:
     """Yield the groups of one body: its outline, each force, its couples, and the names."""
     pen = page_pen((960, 540), "light")
     room = Rect(n % _ACROSS * _PANEL[0], n // _ACROSS * _PANEL[1], *_PANEL).inset(8)
     three = bool(triangle(body))
     half = room._replace(width=room.width * (0.62 if three else 1.0))
-    joints = joints_of(found, body)
-    scale = _FILLED * _PANEL[1] / max(spread(found), 1e-12)
+    joints = joints_of(solution, body)
+    scale = _FILLED * _PANEL[1] / max(spread(solution), 1e-12)
     spots = {name: scale * at.conjugate() for name, at in joints.items()}
     long = _LONGEST * _PANEL[1]
     drawn = [
@@ -68,12 +68,14 @@ def _panel(found: Solution, n: int, body: FreeBody) -> Iterator[Group]:
     off = complex(half.x + half.width / 2, half.y + half.height / 2 + 8) - middle
     spots = {name: at + off for name, at in spots.items()}
     drawn = [one._replace(foot=one.foot + off) for one in drawn]
-    words, colour, turning = titled(found, body), pen.theme.force, pen.theme.acceleration
-    yield grouped(f"free-{body.name}", _outline(found, body, spots, pen))
+    words, colour, turning = titled(solution, body), pen.theme.force, pen.theme.acceleration
+    yield grouped(f"free-{body.name}", _outline(solution, body, spots, pen))
     for one in drawn:
         yield Group(f"arrow-{one.name}", [Layer(colour, arrows([one.foot], [one.way], 1.5 * pen.line))])
     yield grouped(f"couples-{body.name}", _couples(body, spots, pen))
-    names = [NamedPlace(one.name, beside(one.foot, one.foot + one.way, pen.small), colour) for one in drawn]
+    names = [
+        NamedPlace(one.name, name_places(one.foot, one.foot + one.way, pen.small), colour) for one in drawn
+    ]
     names += [
         NamedPlace(name, around_joint(_middle(spots), 2.4 * pen.small), turning) for name, _ in couples(body)
     ]
@@ -92,8 +94,8 @@ def _panel(found: Solution, n: int, body: FreeBody) -> Iterator[Group]:
         yield from _triangle(body, room._replace(x=half.right, width=room.width - half.width), small)
 
 
-def _outline(found: Solution, body: FreeBody, spots: dict[str, complex], pen: Pen) -> Iterator[Item]:
-    theme, own = pen.theme, colours_of(figure(found.request.scene), pen.theme)
+def _outline(solution: Solution, body: FreeBody, spots: dict[str, complex], pen: Pen) -> Iterator[Item]:
+    theme, own = pen.theme, colours_of(figure(solution.request.scene), pen.theme)
     edge = mixed(own.get(body.name, theme.metal), theme.background, 0.35)
     inside = mixed(edge, theme.background, 0.7)
     colours: tuple[Colour, Colour] = (edge, inside)
@@ -136,6 +138,6 @@ def _triangle(body: FreeBody, room: Rect, pen: Pen) -> Iterator[Group]:
     placed = [(name, off + scale * begin, off + scale * end) for name, begin, end in sides]
     for name, foot, head in placed:
         yield Group(f"side-{name}", [Layer(colour, arrows([foot], [head - foot], 1.2 * pen.line))])
-    names = [NamedPlace(name, beside(foot, head, pen.small), colour) for name, foot, head in placed]
+    names = [NamedPlace(name, name_places(foot, head, pen.small), colour) for name, foot, head in placed]
     told = captions(names, grounded(room, lines=[side[1:] for side in placed], half=1.2 * pen.line), pen)
     yield Group(f"triangle-{body.name}", [], [one._replace(of=vector_of(one.text)) for one in told])

@@ -191,7 +191,7 @@ def _sectioned(title: str, parts: list[str]) -> str:
 
 def _css_text(text: str) -> str:
     """Return text in quotes as a style sheet has it."""
-    return "'" + re.sub(r"[^\w .,-]", lambda found: f"\\{ord(found[0]):x} ", text) + "'"
+    return "'" + re.sub(r"[^\w .,-]", lambda match: f"\\{ord(match[0]):x} ", text) + "'"
 
 
 def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:

@@ -137,30 +137,30 @@ def latex_of(text: str) -> str:
     """Return a line as LaTeX sets it: r₃ and v_{BA} as mathematics, words and units upright."""
     from linkanim.explain.formula import plain_latex  # not needed before words are set
 
-    parts, found = list(runs(text)), list[str]()
+    parts, pieces = list(runs(text)), list[str]()
     for n, run in enumerate(parts):
         before = parts[n - 1].text if n and not parts[n - 1].lowered else ""
         if not run.lowered:
             base = _SYMBOL.search(run.text) if n + 1 < len(parts) else None
-            found.append(_words(run.text[: base.start()] if base else run.text, first=not n))
+            pieces.append(_words(run.text[: base.start()] if base else run.text, first=not n))
         elif base := _SYMBOL.search(before):
-            found.append(_symbol(base[1], base[2], base[3], run.text))
+            pieces.append(_symbol(base[1], base[2], base[3], run.text))
         else:
-            found.append(rf"\textsubscript{{{plain_latex(run.text)}}}")
-    return "".join(found)
+            pieces.append(rf"\textsubscript{{{plain_latex(run.text)}}}")
+    return "".join(pieces)
 
 
 def _words(text: str, *, first: bool) -> str:
     """Return words, with names of one capital as mathematics; `first` where they begin the line."""
     from linkanim.explain.formula import plain_latex
 
-    found, done = list[str](), 0
+    pieces, done = list[str](), 0
     for alone in _ALONE.finditer(text):
         if alone[1] or first:
             letter = alone[1] or alone[2]
-            found += [plain_latex(text[done : alone.start()]), _symbol(letter, alone[3], alone[4], "")]
+            pieces += [plain_latex(text[done : alone.start()]), _symbol(letter, alone[3], alone[4], "")]
             done = alone.end()
-    return "".join([*found, plain_latex(text[done:])])
+    return "".join([*pieces, plain_latex(text[done:])])
 
 
 def _symbol(letter: str, primes: str, raised: str, index: str) -> str:

@@ -32,9 +32,9 @@ _THEN = datetime(2000, 1, 1, tzinfo=UTC)
 """The date of every document: the same picture has the same bytes, whenever it is written."""
 
 
-def require_pdf(found: Callable[[str], object] = find_spec) -> None:
+def require_pdf(find: Callable[[str], object] = find_spec) -> None:
     """Raise `BadInput` where fpdf2 is not installed, naming what installs it."""
-    if found("fpdf") is None:
+    if find("fpdf") is None:
         raise BadInput(
             'PDF needs fpdf2, which is not installed; install with: pip install "linkanim[pdf]", '
             "or write an SVG instead"

@@ -122,7 +122,7 @@ class PolarPage(DrawnPage):
             yield Layer(theme.dim, segments([foot], [foot - 1j * plot.area.height], 0.8 * pen.line))
         for n, head in enumerate(self.heads):
             yield from self._curve(plot, head, n)
-        yield from self._told(plot, below)
+        yield from self._size_words(plot, below)
 
     def _plot(self, below: Rect) -> Plot:
         """Return the plot, with one scale across and up and the origin in it."""
@@ -141,15 +141,15 @@ class PolarPage(DrawnPage):
         )
         spans = [high - low for low, high in ranges]
         scale = min(area.width / spans[0], area.height / spans[1])
-        found = []
+        curves = []
         wide = min(area.width, max(scale * spans[0], _NARROWEST * area.height))
         area = area._replace(x=area.x + (area.width - wide) / 2, width=wide)
         for (low, high), room in zip(ranges, (area.width, area.height), strict=True):
             more = (room / scale - (high - low)) / 2
-            found.append((low - more, high + more))
+            curves.append((low - more, high + more))
         most = max(min(round(area.width / (5 * pen.small)), 12), 2)
-        x: Axis = linear(*found[0], most=most)
-        return Plot(area, x, linear(*found[1], most=max(most * area.height / area.width, 2).__ceil__()))
+        x: Axis = linear(*curves[0], most=most)
+        return Plot(area, x, linear(*curves[1], most=max(most * area.height / area.width, 2).__ceil__()))
 
     @property
     def _bounded(self) -> NDArray[np.bool_]:
@@ -214,7 +214,7 @@ class PolarPage(DrawnPage):
         largest = float(sizes[k])
         return k, f"greatest {stepped(largest, largest / 2000)} {unit} at {where}"
 
-    def _told(self, plot: Plot, below: Rect) -> Iterator[Item]:
+    def _size_words(self, plot: Plot, below: Rect) -> Iterator[Item]:
         """Yield below the diagram how large the vector gets, at each speed."""
         pen = self.pen
         top = plot.area.bottom + 3.0 * pen.small

@@ -170,8 +170,8 @@ class Report:
     @cached_property
     def _topics(self) -> dict[str, list[DrawnChart]]:
         """The charts of each topic."""
-        found = topics(self._values, self.paces).items()
-        return {title: [*self._in_topic(charts)] for title, charts in found}
+        by_topic = topics(self._values, self.paces).items()
+        return {title: [*self._in_topic(charts)] for title, charts in by_topic}
 
     def _in_topic(self, charts: list[PlannedChart]) -> Iterator[DrawnChart]:
         """Yield the charts of a topic; of an odd number, one with the most curves is as broad as the page.
@@ -231,17 +231,17 @@ class Report:
         if self.published:
             yield "Comparison with printed values", [self._printed(one) for one in self.published]
         if self.measured:
-            yield f"Comparison: {self.label}", self._beside()
+            yield f"Comparison: {self.label}", self._comparison()
         yield "Velocity and acceleration polygons", self._polygons()
-        yield "Summary", [html.paragraph(self._told(one)) for one in closing(self.scene, self.paces[0])]
+        yield "Summary", [html.paragraph(self._typeset(one)) for one in closing(self.scene, self.paces[0])]
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
-                place, found = (
+                place, findings = (
                     place_of(self.scene, instant),
                     sheet(self._values, instant, self.paces, self.digits),
                 )
-                yield f"Every quantity at {place}", html.sheet_parts(found, place, speeds)
+                yield f"Every quantity at {place}", html.sheet_parts(findings, place, speeds)
             title = f"Every quantity over one period, at {', '.join(speeds)}"
             yield title, _in_rows([chart for _, chart in self._every])
 
@@ -249,7 +249,7 @@ class Report:
         scene, shown = self.scene, self._figure
         drawn = FigurePart(shown.document(), f"{scene.title} with its dimensions at {shown.caption}")
         stated = self._dimensions()
-        known = tuple((label, self._told(value)) for label, value in scene.info.lines)
+        known = tuple((label, self._typeset(value)) for label, value in scene.info.lines)
         own = scene.linkage.drive.speed
         at = "" if [pace.speed for pace in self.paces] == [own] else f" at {speed_words(scene, own)}"
         facts, lengths = (f"Facts{at}", known), ("Dimensions", tuple(stated))
@@ -289,9 +289,9 @@ class Report:
     def _indexed(self, label: str) -> str:
         """Return words with the names of joints in them typeset: Pin O₂."""
         names = {joint.name for joint in self.scene.linkage.joints}
-        return _WORD.sub(lambda found: subscripted(found[0]) if found[0] in names else found[0], label)
+        return _WORD.sub(lambda index: subscripted(index[0]) if index[0] in names else index[0], label)
 
-    def _told(self, text: str) -> str:
+    def _typeset(self, text: str) -> str:
         """Return words of the scene's facts with the tables' digits, and the input's symbol as it is set."""
         symbol = input_symbol(self.scene.linkage)
         return _shorter(text, self.digits).replace(symbol.translate(_BRACES), symbol)
@@ -325,7 +325,7 @@ class Report:
         )
         yield f"<div class='derivation'>{''.join(derivation(self._worked, HTML))}</div>"
 
-    def _beside(self) -> Iterator[Part]:
+    def _comparison(self) -> Iterator[Part]:
         """Yield a chart and a table of each quantity that was measured: both values and their difference."""
         for token, given in self.measured.items():
             pace = self.polygon_pace or self.paces[0]
@@ -428,8 +428,8 @@ def _widest(lines: Sequence[tuple[str, str]], columns: int) -> int:
 def _shorter(text: str, digits: int) -> str:
     """Return words with every decimal number in at most `digits` significant digits, as in the tables."""
 
-    def shorter(found: re.Match[str]) -> str:
-        return min(found[0], rounded(float(found[0]), digits), key=len)
+    def shorter(match: re.Match[str]) -> str:
+        return min(match[0], rounded(float(match[0]), digits), key=len)
 
     return _DECIMALS.sub(shorter, text)
 

@@ -46,7 +46,7 @@ def about(curves: Curves) -> str:
 
     A level curve has no sentence. Where several curves share a chart each has a short one.
     """
-    told = _told(curves)
+    told = _described(curves)
     return " ".join(sentence for curve in told for sentence in _sentences(curves, curve, brief=len(told) > 1))
 
 
@@ -119,7 +119,7 @@ def _sentence(text: str) -> str:
     return f"{text[:1].upper()}{text[1:].rstrip('.')}."
 
 
-def _told(curves: Curves) -> Sequence[Curve]:
+def _described(curves: Curves) -> Sequence[Curve]:
     """Return the curves that are described: those at the speed of the curve of greatest range, as marked.
 
     Of many it is that curve alone.
@@ -210,10 +210,10 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
     phases = np.sort(curve.phases)
     # round the period from between two samples: many curves are zero at the start itself
     shifted = np.linspace(phases[0], phases[-1], len(phases)) + 0.5 * (phases[1] - phases[0])
-    found = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
+    zeros = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
     if curves.in_time:
-        return [_seconds(curves, time) for time in sorted(_times(curve, found))]
-    return _input_places(curves, found)
+        return [_seconds(curves, time) for time in sorted(_times(curve, zeros))]
+    return _input_places(curves, zeros)
 
 
 def _input_places(curves: Curves, phases: Floats) -> list[str]:

@@ -94,9 +94,9 @@ def _unused(name: str, ids: set[str]) -> str:
     """Return a name as an id that is not in `ids`, and add it to them."""
     word = "_".join(name.split())
     choices = (word if n == 1 else f"{word}-{n}" for n in count(1))
-    found = next(choice for choice in choices if choice not in ids)
-    ids.add(found)
-    return found
+    unused = next(choice for choice in choices if choice not in ids)
+    ids.add(unused)
+    return unused
 
 
 def _path(layer: Layer, paint: Paint) -> str:

@@ -48,11 +48,11 @@ class ToleranceChart(DrawnPage):
     def words(self) -> str:
         """What is seen in it, in a paragraph."""
         off, phase = self.off, math.degrees(self.off.worst_phase or 0.0)
-        said = f"At most {self._said(off.worst)}, at a phase of {significant(phase, 3)}°, to first order"
-        drawn = f"; 95 in 100 linkages stay within {self._said(off.likely)}" if off.likely > 0 else ""
-        return f"{said}{drawn}. {self.shown.most(off)} matters most: {self._said(float(off.by.max()))}."
+        said = f"At most {self._in_words(off.worst)}, at a phase of {significant(phase, 3)}°, to first order"
+        drawn = f"; 95 in 100 linkages stay within {self._in_words(off.likely)}" if off.likely > 0 else ""
+        return f"{said}{drawn}. {self.shown.most(off)} matters most: {self._in_words(float(off.by.max()))}."
 
-    def _said(self, value: float) -> str:
+    def _in_words(self, value: float) -> str:
         return f"{significant(self._scale * value, 3)} {self.unit}"
 
     @property

@@ -57,26 +57,26 @@ class NamedPlace(NamedTuple):
     colour: Colour
 
 
-def vectors_svg(found: Solution) -> str:
+def vectors_svg(solution: Solution) -> str:
     """Return the vector loops as SVG: each vector once, with its name, and its joints with theirs."""
-    picture = _picture(found)
-    ground = Group("ground", ground_layers(picture.drawing.setting, _pins(found, picture)))
-    title = f"Vector loops of {found.title}"
-    drawn = [ground, *_links(found, picture), *_drawn(found, picture)]
-    return svg(picture.size, picture.theme.background, drawn, title=title, indices=indices_of(found))
+    picture = _picture(solution)
+    ground = Group("ground", ground_layers(picture.drawing.setting, _pins(solution, picture)))
+    title = f"Vector loops of {solution.title}"
+    drawn = [ground, *_links(solution, picture), *_drawn(solution, picture)]
+    return svg(picture.size, picture.theme.background, drawn, title=title, indices=indices_of(solution))
 
 
 _OF_INPUT = ("0", "m", "slow", "stretched", "folded", "back", "front", "s1", "s2", "f1", "f2")
 """The indices of angles of the whole motion that are the input's."""
 
 
-def indices_of(found: Solution) -> dict[str, str]:
+def indices_of(solution: Solution) -> dict[str, str]:
     """Return the symbols of each group of the figure, with blanks between, as a kind and an index.
 
     The kinds are r, a length; w, what belongs to a link that turns; s, a travel; j, what belongs to a joint.
     Springs and dampers, which the figure of the loops lacks, have none.
     """
-    linkage, names = found.request.scene.linkage, names_of(figure(found.request.scene))
+    linkage, names = solution.request.scene.linkage, names_of(figure(solution.request.scene))
     labels = link_labels(linkage)
     bars = [(start, joint.name) for joint in linkage.joints for start, _ in joint.bars]
     of: dict[str, list[str]] = {}
@@ -91,12 +91,12 @@ def indices_of(found: Solution) -> dict[str, str]:
         of[f"body-{body.name}"] = [f"{kind}{labels[one.name]}" for one in others for kind in ("w", "jG")]
         of[f"body-{body.name}"] += [f"w{names.angle(*ends)}" for ends in own]
         of[f"body-{body.name}"] += [f"r{names.length(*ends)}" for ends in own]
-    for arrow in found.arrows:
+    for arrow in solution.arrows:
         letter, index = arrow.symbol.letter, arrow.symbol.sub
         ends = [
             [
                 name
-                for name, at in found.places.items()
+                for name, at in solution.places.items()
                 if abs(at - end) < _SHORT * abs(arrow.end - arrow.begin)
             ]
             for end in (arrow.begin, arrow.end)
@@ -107,7 +107,7 @@ def indices_of(found: Solution) -> dict[str, str]:
             angles = [*(names.angle(*pair) for pair in pairs), *("".join(pair) for pair in pairs)]
             of[_vector(arrow.symbol)] += [f"w{angle}" for angle in angles]
             of[_vector(arrow.symbol)] += ["w1"] * (index == "1")
-    drawn = {arrow.symbol.sub for arrow in found.arrows if arrow.symbol.letter == "R"}
+    drawn = {arrow.symbol.sub for arrow in solution.arrows if arrow.symbol.letter == "R"}
     for joint in linkage.joints:
         legs = (f"r{index}" for index in names.legs.get(joint.name, ()))
         more = (f"r{n}" for ends, n in names.lengths.items() if joint.name in ends and n not in drawn)
@@ -128,48 +128,48 @@ def _mark(joint: str) -> str:
     return f"mark-{joint}"
 
 
-def _picture(found: Solution) -> Picture:
+def _picture(solution: Solution) -> Picture:
     """Return the links with all vectors in view, as large as there is room for."""
-    look, scene = Look(trace=False, hud=False), found.request.scene
+    look, scene = Look(trace=False, hud=False), solution.request.scene
     bodies = {name for body in scene.linkage.bodies for name in body.joints}
-    places = [end for one in found.arrows for end in (one.begin, one.end)]
-    places += [at for name, at in found.places.items() if name in bodies]
+    places = [end for one in solution.arrows for end in (one.begin, one.end)]
+    places += [at for name, at in solution.places.items() if name in bodies]
     high, wide = (float(np.ptp(np.imag(places))), float(np.ptp(np.real(places))))
     size = _TALL if high > wide else _WIDE
-    whole = Figured(scene, size, look, found.phase).picture
-    outlines = (loop for group in _links(found, whole) for layer in group.layers for loop in layer.loops)
+    whole = Figured(scene, size, look, solution.phase).picture
+    outlines = (loop for group in _links(solution, whole) for layer in group.layers for loop in layer.loops)
     ends = np.concatenate([[_pixel(whole, place) for place in places], *outlines])
     spans = max(float(np.ptp(ends.real)), 1.0), max(float(np.ptp(ends.imag)), 1.0)
     zoom = min(_FILLED * size[0] / spans[0], _FILLED * size[1] / spans[1])
     off = (ends.real.max() + ends.real.min() - size[0]) / 2, (ends.imag.max() + ends.imag.min() - size[1]) / 2
     pan = -zoom * float(off[0]) / size[1], -zoom * float(off[1]) / size[1]
-    return Figured(scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
+    return Figured(scene, size, replace(look, zoom=zoom, pan=pan), solution.phase).picture
 
 
-def _pins(found: Solution, picture: Picture) -> list[str]:
+def _pins(solution: Solution, picture: Picture) -> list[str]:
     """Return the fixed pins of links and of vectors."""
-    ends = {end for one in found.arrows for end in (one.begin, one.end)}
-    bodies = {name for body in found.request.scene.linkage.bodies for name in body.joints}
-    return [name for name in picture.figure.fixed if name in bodies or found.places[name] in ends]
+    ends = {end for one in solution.arrows for end in (one.begin, one.end)}
+    bodies = {name for body in solution.request.scene.linkage.bodies for name in body.joints}
+    return [name for name in picture.figure.fixed if name in bodies or solution.places[name] in ends]
 
 
-def _links(found: Solution, picture: Picture) -> Iterator[Group]:
+def _links(solution: Solution, picture: Picture) -> Iterator[Group]:
     """Return the links in faint colours, with the pins of nothing else."""
-    others = {*picture.figure.fixed} - {*_pins(found, picture)}
-    return picture.drawing.faint_groups(found.request.scene.pose(found.phase, 0), others)
+    others = {*picture.figure.fixed} - {*_pins(solution, picture)}
+    return picture.drawing.faint_groups(solution.request.scene.pose(solution.phase, 0), others)
 
 
 def _pixel(picture: Picture, at: complex) -> complex:
     return picture.view.pixel((at.real, at.imag))
 
 
-def _drawn(found: Solution, picture: Picture) -> Iterator[Group]:
+def _drawn(solution: Solution, picture: Picture) -> Iterator[Group]:
     """Yield the marks of joints and the vectors, each with its name, placed where it covers nothing."""
     pen, theme = pen_for(picture.layout, picture.type, picture.theme), picture.theme
-    ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in found.arrows]
+    ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in solution.arrows]
     long = [way for way in ways if abs(way[2] - way[1]) > _SHORT * picture.size[0]]
-    bodies = {name for body in found.request.scene.linkage.bodies for name in body.joints}
-    joints = {name: _pixel(picture, at) for name, at in found.places.items()}
+    bodies = {name for body in solution.request.scene.linkage.bodies for name in body.joints}
+    joints = {name: _pixel(picture, at) for name, at in solution.places.items()}
     ends = [end for _, *both in long for end in both]
     shown = {
         name: at for name, at in joints.items() if name in bodies or any(abs(at - end) < 1 for end in ends)
@@ -185,7 +185,7 @@ def _drawn(found: Solution, picture: Picture) -> Iterator[Group]:
         arrow = Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
         groups.append(Group(_vector(one.symbol), [arrow]))
         text = f"{one.symbol.letter}_{{{one.symbol.sub}}}"
-        names.append(NamedPlace(text, beside(begin, end, pen.text), colour))
+        names.append(NamedPlace(text, name_places(begin, end, pen.text), colour))
     whole = Rect(0, 0, *picture.size)
     ground = grounded(whole, lines=[(begin, end) for _, begin, end in long], half=1.5 * pen.line)
     spots = np.array([[*shown.values()]], np.complex128).reshape(1, -1)
@@ -212,7 +212,7 @@ def captions(names: list[NamedPlace], ground: Obstacles, pen: Pen) -> Iterator[C
         yield Caption(one.text, top, pen.text, one.colour, "centre", strong=True, halo=halo)
 
 
-def beside(begin: complex, end: complex, text: float) -> list[complex]:
+def name_places(begin: complex, end: complex, text: float) -> list[complex]:
     """Return places for a vector's name: by its middle on either side, then along it and further off."""
     across = 1j * (end - begin) / abs(end - begin)
     return [

@@ -209,7 +209,7 @@ def _read(text: str, where: str, name: str) -> Level:
             raise document.error(key, f"is no key of a level; there are {', '.join(sorted(_KEYS))}")
     full = document.table("full")
     closed, points = document.flag("closed"), _points(document)
-    curve = _said_of(document, "points", lambda: drawn(points, closed=closed))
+    curve = _value_of(document, "points", lambda: drawn(points, closed=closed))
     fixed = document.texts("fixed")
     for joint in fixed:
         if joint not in _JOINTS:
@@ -226,7 +226,7 @@ def _read(text: str, where: str, name: str) -> Level:
     )
 
 
-def _said_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
+def _value_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
     """Return what `make` returns for a key's value; an error names the key."""
     try:
         return make()
@@ -235,7 +235,7 @@ def _said_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
 
 
 def _stated_least_angle(full: Section) -> float:
-    least = _said_of(full, "angle", lambda: angle(full.text("angle")))
+    least = _value_of(full, "angle", lambda: angle(full.text("angle")))
     if not 0.0 < least <= math.pi / 2:
         raise full.error("angle", 'must be a transmission angle, such as "40 deg"')
     return least

@@ -81,7 +81,7 @@ class _Posed(NamedTuple):
         shown = f"<br>{_image(self.curves[number], source)}" if self.curves else ""
         return f"<p>{escape(answer_text(self.question, number))}{shown}</p>"
 
-    def told(self, number: int) -> str:
+    def feedback(self, number: int) -> str:
         """Return the feedback of an answer, as HTML."""
         slip = self.answers[number].slip
         if number == self.question.right:
@@ -132,7 +132,7 @@ def _moodle_question(top: ET.Element, asked: _Posed) -> None:
         answer = ET.SubElement(question, "answer", fraction=fraction, format="html")
         ET.SubElement(answer, "text").text = asked.answer(number, _in_moodle)
         _moodle_files(answer, asked.curves[number : number + 1])
-        _moodle_html(answer, "feedback", asked.told(number))
+        _moodle_html(answer, "feedback", asked.feedback(number))
 
 
 def _in_moodle(picture: _Picture) -> str:
@@ -194,7 +194,7 @@ def _qti_item(section: ET.Element, asked: _Posed) -> None:
         _qti_html(ET.SubElement(choice, "response_label", ident=ident), asked.answer(number, _in_package))
     _qti_processing(item, idents, asked.question.right)
     for number, ident in enumerate(idents):
-        _qti_feedback(item, f"{ident}_fb", asked.told(number))
+        _qti_feedback(item, f"{ident}_fb", asked.feedback(number))
     _qti_feedback(item, "general_fb", asked.why)
 
 

@@ -140,7 +140,7 @@ def running(
     _refuse_failure(process.returncode, words)
 
 
-def told(command: Sequence[str]) -> bytes:
+def output_of(command: Sequence[str]) -> bytes:
     """Return what a command prints; nothing where the command fails.
 
     `RecordingFailed` where it cannot be started or stands still.
@@ -325,7 +325,7 @@ def count_frames(part: Path, form: Format) -> int:
         return sum(1 for _ in part.glob("*.png"))
     # a line for each frame, as ffmpeg 7 does not otherwise say how many it copied
     copied = ["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]
-    lines = told([ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied])
+    lines = output_of([ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied])
     return len(re.findall(rb"^\d", lines, re.MULTILINE))
 
 
@@ -334,27 +334,27 @@ def ffmpeg() -> str:
     places, usual = child.path_of_programs(), os.environ.get("PATH", os.defpath)
     os.environ["PATH"] = places  # imageio-ffmpeg tries to run one from there
     try:
-        found = str(get_ffmpeg_exe())
-        if not os.path.dirname(found):  # noqa: PTH120 -- a name that is looked for, no path
-            found = shutil.which(found, path=places) or ""
+        program = str(get_ffmpeg_exe())
+        if not os.path.dirname(program):  # noqa: PTH120 -- a name that is looked for, no path
+            program = shutil.which(program, path=places) or ""
     except RuntimeError:  # also where it could not try the one it carries
         for end in (*os.pipe(), *os.pipe()):
             os.close(end)
-        found = ""
+        program = ""
     finally:
         os.environ["PATH"] = usual
-    if not found:
+    if not program:
         raise RecordingFailed("imageio-ffmpeg has no ffmpeg here; set IMAGEIO_FFMPEG_EXE to one")
-    return found
+    return program
 
 
 def ffmpeg_version() -> str:
     """Return the version that the encoder says it has, such as "7.0.2-static"; empty where there is none."""
     try:
-        found = re.match(rb"ffmpeg version (\S+)", told([ffmpeg(), "-version"]))
+        match = re.match(rb"ffmpeg version (\S+)", output_of([ffmpeg(), "-version"]))
     except (RecordingFailed, OSError):
         return ""
-    return found[1].decode(errors="replace") if found else ""
+    return match[1].decode(errors="replace") if match else ""
 
 
 def _is_large(stream: Stream) -> bool:

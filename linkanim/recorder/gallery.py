@@ -107,8 +107,8 @@ def reduced(picture: Bytes) -> Bytes:
     pixels = np.insert(picture[..., ::-1], 3, 0, axis=2)
     words, which = np.unique(pixels.view(np.uint32).reshape(-1), return_inverse=True)
     palette = make_palette([pixels], most=_COLOURS)
-    found: Bytes = palette[nearest(rgb(words).astype(float), palette.astype(float))]
-    return found[which.reshape(-1)].reshape(picture.shape)
+    colours: Bytes = palette[nearest(rgb(words).astype(float), palette.astype(float))]
+    return colours[which.reshape(-1)].reshape(picture.shape)
 
 
 def _gif(name: str) -> str:

@@ -61,20 +61,22 @@ class Indexing:
 
     def _indices(self, words: Words) -> Bytes:
         colours = words & np.uint32(0xFFFFFF)
-        found = self._known.take(colours)
-        if not found.all():
-            new = np.unique(colours[found == 0])
+        indices = self._known.take(colours)
+        if not indices.all():
+            new = np.unique(colours[indices == 0])
             for some in np.array_split(new, len(new) // _AT_ONCE + 1):
                 self._known[some] = 1 + nearest(_oklab(rgb(some)), self._palette)
-            found = self._known.take(colours)
-        return np.where(words >> 24 < _OPAQUE, np.uint8(0), found) if self._alpha else found
+            indices = self._known.take(colours)
+        return np.where(words >> 24 < _OPAQUE, np.uint8(0), indices) if self._alpha else indices
 
 
 def nearest(colours: Floats, palette: Floats) -> NDArray[np.intp]:
     """Return for each colour (n, 3) the number of the nearest in a palette (m, 3), the first of equals."""
     # |a - b|² without |a|², the same for every b
-    found: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * _product(colours, palette.T)).argmin(axis=1)
-    return found
+    distances: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * _product(colours, palette.T)).argmin(
+        axis=1
+    )
+    return distances
 
 
 def _product(rows: Floats, matrix: Floats) -> Floats:
@@ -84,8 +86,8 @@ def _product(rows: Floats, matrix: Floats) -> Floats:
     looked up together.
     """
     first, second, third = (rows[:, k : k + 1] * matrix[k] for k in range(3))
-    found: Floats = first + second + third
-    return found
+    products: Floats = first + second + third
+    return products
 
 
 def _oklab(colours: Bytes) -> Floats:

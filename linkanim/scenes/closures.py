@@ -57,19 +57,19 @@ def closures(scene: Scene, progress: Callable[[int, int], None] | None = None) -
     Those of links that are solved together are searched for from random starts, in the pose of the scene.
     `progress` is called with (ways tried, ways in all). BadInput for more than `MOST_DYADS` dyads.
     """
-    found = list[SceneClosure]()
+    choices = list[SceneClosure]()
     for variant, sides in _variants(scene, progress or (lambda done, count: None)):
         for one in _ranges(variant):
-            if not any(_is_reached(one, other.scene) for other in found):
-                curves = (n for n, other in enumerate(found, start=1) if _traces_alike(one, other.scene))
-                number = next(curves, len(found) + 1) if one.trace else None
-                found.append(SceneClosure(one, sides, number))
-    return tuple(found)
+            if not any(_is_reached(one, other.scene) for other in choices):
+                curves = (n for n, other in enumerate(choices, start=1) if _traces_alike(one, other.scene))
+                number = next(curves, len(choices) + 1) if one.trace else None
+                choices.append(SceneClosure(one, sides, number))
+    return tuple(choices)
 
 
-def described(found: Sequence[SceneClosure], place: int) -> tuple[str, ...]:
+def described(choices: Sequence[SceneClosure], place: int) -> tuple[str, ...]:
     """Return words for the closure at a place: number, how it is put together, input, class, curve."""
-    one, number = found[place], place + 1
+    one, number = choices[place], place + 1
     sides = ", ".join(f"{joint} {side}" for joint, side in one.sides.items())
     words = one.scene.info.input_words.partition(", and ")[0]
     curve = "" if one.curve is None else "its own" if one.curve == number else f"that of {one.curve}"
@@ -202,9 +202,9 @@ def _at(solved: Mechanism, phase: float) -> tuple[float, dict[str, complex]]:
     return float(pose.coordinate), {name: complex(*place) for name, place in pose.position.items()}
 
 
-def _is_passed(found: tuple[float, dict[str, complex]], scene: Scene) -> bool:
+def _is_passed(closure: tuple[float, dict[str, complex]], scene: Scene) -> bool:
     """Tell whether a scene passes through a pose at the place of its input."""
-    coordinate, places = found
+    coordinate, places = closure
     solved = scene.mechanism
     if not solved.comes_to(coordinate):
         return False

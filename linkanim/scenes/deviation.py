@@ -151,16 +151,16 @@ def tolerance(
     acts = np.max([np.abs(one).max(axis=(1, 2)) for one in effects], axis=0) > _NOTHING
     used = tuple(name for name, acting in zip(names, acts, strict=True) if acting)
     draw = _drawn(scene, used, by, samples) if samples else None
-    found = []
+    deviations = []
     for one, every in zip(quantities, effects, strict=True):
         pulse()
         off = by * every[acts]
         if one.ends:
             back, forth = (off[:, [len(phases) + strokes.index(end)]] for end in one.ends)
-            found.append(_off(scene, one, np.empty(0), forth - back, draw))
+            deviations.append(_off(scene, one, np.empty(0), forth - back, draw))
         else:
-            found.append(_off(scene, one, phases, off[:, : len(phases)], draw))
-    return Tolerance(scene, by, used, tuple(found))
+            deviations.append(_off(scene, one, phases, off[:, : len(phases)], draw))
+    return Tolerance(scene, by, used, tuple(deviations))
 
 
 def _lengths_of(scene: Scene) -> tuple[str, ...]:
@@ -228,21 +228,21 @@ def _effects(
 ) -> list[Real]:
     """Return the derivatives (L, P, 1 or 2) of each quantity by each length, at each phase."""
     own, known, reach = _own(scene, names), named_lengths(scene), scene.linkage.extent / 8
-    found: list[list[Real]] = [[] for _ in quantities]
+    effects: list[list[Real]] = [[] for _ in quantities]
     for n, name in enumerate(names):
         wide = min(own[n] / 2, reach) if known[name].type.measure == "length" else reach
         steps = np.outer(wide * _STEPS, [1, 2, 3, 4])
         moved = np.stack([own[n] + steps, own[n] - steps], axis=-1)
         pulse()
         motion = solve_many(scene, {name: np.repeat(moved.ravel(), len(phases))}, np.tile(phases, moved.size))
-        for one, slopes in zip(quantities, found, strict=True):
+        for one, slopes in zip(quantities, effects, strict=True):
             values = one.values(motion).reshape(*moved.shape, len(phases), -1)
             apart = _less(values[:, :, 0], values[:, :, 1], is_angle=one.is_angle)
             each = np.einsum("hkpc,k->hpc", apart, _STENCIL) / steps[:, :1, None]
             coarse, fine = np.nan_to_num(np.abs(np.diff(each, axis=0)), nan=np.inf).max(axis=-1)
             first = (coarse <= fine) & np.isfinite(each[1]).all(axis=1)
             slopes.append(np.where(first[:, None], each[1], each[2]))
-    return [np.array(slopes) for slopes in found]
+    return [np.array(slopes) for slopes in effects]
 
 
 Draw = Callable[[float], Many]

@@ -241,8 +241,8 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     """
     kept: dict[str, Any] = vars(scene)
     if "_dimensions" not in kept:
-        found = numbers(scene.document) if scene.document else ()
-        kept["_dimensions"] = tuple(_dimension(number, scene) for number in found)
+        stated = numbers(scene.document) if scene.document else ()
+        kept["_dimensions"] = tuple(_dimension(number, scene) for number in stated)
     return kept["_dimensions"]  # type: ignore[no-any-return]
 
 
@@ -345,10 +345,10 @@ def _read_in(scene: Scene, unit: str) -> Scene:
             document = replaced(document, number.key, f"{number.written} {scene.length_unit}")
     goal = scene.goal and in_unit(scene.goal, unit)
     try:
-        found = scene_from(document, name=scene.name, where=scene.name, goal=goal)
+        read = scene_from(document, name=scene.name, where=scene.name, goal=goal)
     except BadInput as error:
         raise SceneError(f"{error}; show it in another unit") from None
-    return replace(found, title=scene.title, original_title=scene.original_title)
+    return replace(read, title=scene.title, original_title=scene.original_title)
 
 
 # The other closure: the same lengths, put together the other way.
@@ -425,7 +425,7 @@ def _choice(scene: Scene) -> ClosureChoice | None:
 def closure_choices(scene: Scene) -> list[ClosureChoice]:
     """Return where the closures are that can be chosen; a missing key means the first option."""
     document = scene.document
-    found = list[ClosureChoice]()
+    choices = list[ClosureChoice]()
     joints = document.get("joints", {})
     fields = ((key, form.field("assembly").plain) for key, form in SHORTHANDS.items() if key in document)
     shorthands = [((key, "assembly"), plain.options) for key, plain in fields if plain]
@@ -437,8 +437,8 @@ def closure_choices(scene: Scene) -> list[ClosureChoice]:
             table = table[name]
         now = table.get(key, options[0])
         joint = tables[-1]
-        found.append(ClosureChoice((*tables, key), now, options[now == options[0]], joint))
-    return found
+        choices.append(ClosureChoice((*tables, key), now, options[now == options[0]], joint))
+    return choices
 
 
 # What is no number: the joints whose curves are drawn, and the crank that is driven.
@@ -491,9 +491,9 @@ class Handle:
 
 def handles(scene: Scene, joint: str) -> tuple[Handle, ...]:
     """Return the dimensions that follow a joint; none where it is found from other joints alone."""
-    found = scene.linkage.joint(joint)
+    own = scene.linkage.joint(joint)
     dragged = [number for number in numbers(scene.document) if number.field.drag]
-    return tuple(handle for number in dragged for handle in _handles(number, found, scene))
+    return tuple(handle for number in dragged for handle in _handles(number, own, scene))
 
 
 def dragged(handle: Handle, places: Mapping[str, Point], point: Point) -> float:
@@ -553,8 +553,8 @@ def stretches(scene: Scene, key: Key) -> tuple[Stretch, ...]:
     For a place on a body these are the part along its axis and the part to its left, for a fixed pin x and y.
     """
     number = next((number for number in numbers(scene.document) if number.key == key), None)
-    found = _of(number, scene) if number else ()
-    return tuple(sorted(found, key=lambda stretch: stretch.key != key))
+    stretched = _of(number, scene) if number else ()
+    return tuple(sorted(stretched, key=lambda stretch: stretch.key != key))
 
 
 def _of(number: Number, scene: Scene) -> Iterator[Stretch]:

@@ -272,12 +272,12 @@ GROUND = "ground"
 def _pair_lengths(table: Table, key: str) -> dict[str, Any] | None:
     """Read the lengths that links state, as { "A-B" = 90 }; each link's by the pair as it is written."""
     links = table.table(key)
-    found: dict[str, Any] = {}
+    read: dict[str, Any] = {}
     for name in links.values:
         pairs = links.table(name)
         lengths = {pair: pairs.attempt(LENGTH.read, pairs, pair) for pair in pairs.values}
-        found[name] = None if None in lengths.values() else lengths
-    return None if None in found.values() else found
+        read[name] = None if None in lengths.values() else lengths
+    return None if None in read.values() else read
 
 
 POLAR_POINT = form(
@@ -702,8 +702,8 @@ def _with_unit(table: Table, key: str, of: ValueType, example: str) -> float:
     value = table.values[key]
     if not isinstance(value, str):
         raise table.error(key, f'needs its unit; write it as "{example}"')
-    found: float = of.read(table, key)
-    return found
+    number: float = of.read(table, key)
+    return number
 
 
 def _length(table: Table, key: str) -> float:
@@ -732,8 +732,8 @@ def _listed(read: Any, words: str, item: Schema, low: int, high: int) -> ValueTy
         if not isinstance(value, list) or not low <= len(value) <= high:
             raise table.error(key, f"must be a list of {low} to {high} {words}")
         items = table.listed(key)
-        found = tuple(items.attempt(read, items, one) for one in items.values)
-        return None if None in found else found
+        values = tuple(items.attempt(read, items, one) for one in items.values)
+        return None if None in values else values
 
     schema = {"type": "array", "items": item, "minItems": low, "maxItems": high}
     return ValueType(take, f"{low} to {high} {words}", schema)
@@ -745,8 +745,8 @@ def _pose(table: Table, key: str) -> tuple[Any, ...] | None:
         raise table.error(key, 'must be x, y and an angle, such as ["40 mm", "10 mm", "35 deg"]')
     items = table.listed(key)
     reads = (_length, _length, ANGLE.read)
-    found = tuple(items.attempt(read, items, one) for read, one in zip(reads, items.values, strict=True))
-    return None if None in found else found
+    values = tuple(items.attempt(read, items, one) for read, one in zip(reads, items.values, strict=True))
+    return None if None in values else values
 
 
 def _place(table: Table, key: str) -> float:
@@ -927,7 +927,7 @@ def _load_table(table: Table, key: str) -> tuple[tuple[float, float], ...] | Non
     if not isinstance(value, list) or not 2 <= len(value) <= _MOST_ROWS:
         raise table.error(key, f"must be a list of 2 to {_MOST_ROWS} rows, such as {example}")
     rows = table.listed(key)
-    found: list[tuple[float, float]] = []
+    read: list[tuple[float, float]] = []
     for name, row in rows.values.items():
         if not isinstance(row, list) or len(row) != 2:
             raise rows.error(name, f"must be a place and the force there, as in {example}")
@@ -935,12 +935,12 @@ def _load_table(table: Table, key: str) -> tuple[tuple[float, float], ...] | Non
         place, force = (cells.attempt(kind.read, cells, f"{name}[{n}]") for n, kind in enumerate((of, FORCE)))
         if place is None or force is None:
             return None
-        if found and place <= found[-1][0]:
+        if read and place <= read[-1][0]:
             raise rows.error(name, "does not come after the row before it; let the places rise")
-        found.append((float(place), force))
-    if over == "angle" and found[-1][0] - found[0][0] >= math.tau:
+        read.append((float(place), force))
+    if over == "angle" and read[-1][0] - read[0][0] >= math.tau:
         raise table.error(key, "goes over a whole turn or more, after which it begins anew; leave rows out")
-    return tuple(found)
+    return tuple(read)
 
 
 def _refuse_size(table: Table, values: Mapping[str, Any]) -> None:

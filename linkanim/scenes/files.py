@@ -122,14 +122,16 @@ def foreign_document(name_or_path: str | os.PathLike[str]) -> ForeignDocument | 
 
     text, path = os.fspath(name_or_path), Path(name_or_path)
     if is_link(text):
-        found = read_text(text, "the link")
-        return ForeignDocument(found.document("link", "converted from a link"), "the link", found.left_out)
+        foreign = read_text(text, "the link")
+        return ForeignDocument(
+            foreign.document("link", "converted from a link"), "the link", foreign.left_out
+        )
     if path.suffix.lower() == ".toml" or not (path.suffix or path.is_file()):
         return None
     where = intake.named(path)
-    found = read_foreign(path, where)
+    foreign = read_foreign(path, where)
     title, source = intake.named(path.stem), f"converted from {intake.named(path.name)}"
-    return ForeignDocument(found.document(title, source), where, found.left_out)
+    return ForeignDocument(foreign.document(title, source), where, foreign.left_out)
 
 
 def opened(name_or_path: str | os.PathLike[str]) -> tuple[Scene, tuple[str, ...]]:

@@ -68,20 +68,20 @@ def _number(text: str, where: str, what: str) -> float:
     return value
 
 
-def _checked(found: Foreign, where: str) -> Foreign:
-    if not found.points or len(found.links) < 2:
+def _checked(foreign: Foreign, where: str) -> Foreign:
+    if not foreign.points or len(foreign.links) < 2:
         raise BadInput(f"{where}: has no joints with links between them, so it is no linkage")
-    if len(found.points) > MOST_JOINTS:
-        raise BadInput(f"{where}: has {len(found.points):,} joints, and {MOST_JOINTS} are the most here")
-    if not found.links.get(GROUND):
+    if len(foreign.points) > MOST_JOINTS:
+        raise BadInput(f"{where}: has {len(foreign.points):,} joints, and {MOST_JOINTS} are the most here")
+    if not foreign.links.get(GROUND):
         raise BadInput(f"{where}: has no joint that is fixed to the ground")
-    if "joint" not in found.drive:
+    if "joint" not in foreign.drive:
         raise BadInput(f"{where}: says of no joint that a motor turns there, and none on the ground is free")
-    for name, points in found.links.items():
-        lost = next((point for point in points if point not in found.points), None)
+    for name, points in foreign.links.items():
+        lost = next((point for point in points if point not in foreign.points), None)
         if lost is not None:
             raise BadInput(f"{where}: link {name} is through {shown(lost)}, which is no joint of the file")
-    return found
+    return foreign
 
 
 def _usual_drive(links: Mapping[str, list[str]]) -> dict[str, Any]:
@@ -234,8 +234,8 @@ def _pmks_joint(cells: list[str], where: str, n: int) -> tuple[_ListedJoint, boo
 def _unquoted(text: str) -> str:
     """Return the text of a link, with its percent signs read."""
 
-    def letters(found: re.Match[str]) -> str:
-        return bytes.fromhex(found[0].replace("%", "")).decode("utf-8", "replace")
+    def letters(match: re.Match[str]) -> str:
+        return bytes.fromhex(match[0].replace("%", "")).decode("utf-8", "replace")
 
     return re.sub(r"(?:%[0-9a-fA-F]{2})+", letters, text)
 
@@ -301,8 +301,8 @@ class _PlusReader:
 
     def _section(self) -> list[str]:
         end = self.rest.index("") if "" in self.rest else len(self.rest)
-        found, self.rest = self.rest[:end], self.rest[end + 1 :]
-        return found
+        section, self.rest = self.rest[:end], self.rest[end + 1 :]
+        return section
 
     def _whole(self, text: str, what: str) -> int:
         if not re.fullmatch(r"[0-9A-Za-z_-]{1,10}", text):
@@ -356,14 +356,14 @@ class _PlusReader:
 
     def pins(self) -> dict[str, str]:
         """Return, for each joint that slides, the pin of its block, else itself."""
-        found = {name: name for name in self.joints if self.is_a(name, _PRISMATIC)}
+        pins = {name: name for name in self.joints if self.is_a(name, _PRISMATIC)}
         for block in self.blocks:
-            sliding = [name for name in block if name in found]
-            others = [name for name in block if name not in found]
+            sliding = [name for name in block if name in pins]
+            others = [name for name in block if name not in pins]
             if len(sliding) != 1 or len(others) != 1:
                 raise BadInput(f"{self.where}: a block through {', '.join(block)} is no slider of PMKS+")
-            found[sliding[0]] = others[0]
-        return found
+            pins[sliding[0]] = others[0]
+        return pins
 
     def linkage(self) -> Foreign:
         """Return the linkage."""
@@ -452,12 +452,12 @@ def _degrees(turned: float) -> float:
 
 def _names(ids: Iterable[str], titles: Mapping[str, str], letter: str) -> dict[str, str]:
     """Return a name for each: its title if no other has it, else what the file calls it, if that is one."""
-    found: dict[str, str] = {}
+    names: dict[str, str] = {}
     for n, one in enumerate(ids):
-        taken = {GROUND, *found.values()}
+        taken = {GROUND, *names.values()}
         wished = (name for name in (titles.get(one, ""), one) if name.strip() and name not in taken)
-        found[one] = next((name for name in wished if re.fullmatch(_SAFE_NAME, name)), f"{letter}{n}'")
-    return found
+        names[one] = next((name for name in wished if re.fullmatch(_SAFE_NAME, name)), f"{letter}{n}'")
+    return names
 
 
 def pmks_plus(text: str, where: str) -> Foreign:
@@ -509,8 +509,8 @@ def motiongen(text: str, where: str) -> Foreign:
     return Foreign(kept, named, {}, drive or _usual_drive(named), tuple(left), unit)
 
 
-def _objects(found: Any) -> list[dict[str, Any]]:
-    return [one for one in found if isinstance(one, dict)] if isinstance(found, list) else []
+def _objects(objects: Any) -> list[dict[str, Any]]:
+    return [one for one in objects if isinstance(one, dict)] if isinstance(objects, list) else []
 
 
 def _letter(n: int) -> str:
@@ -591,14 +591,14 @@ def link_arrays(data: bytes, where: str) -> Foreign:
 
     try:
         with np.load(BytesIO(data), allow_pickle=False) as arrays:
-            found = {key: np.asarray(arrays[key]) for key in ("A", "x0", "node_types", "motor")}
+            read = {key: np.asarray(arrays[key]) for key in ("A", "x0", "node_types", "motor")}
     except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
         raise BadInput(f"{where}: has no arrays A, x0, node_types and motor of LInK: {error}") from None
     joined, places, fixed, motor = (
-        found["A"],
-        found["x0"],
-        found["node_types"].ravel(),
-        found["motor"].ravel(),
+        read["A"],
+        read["x0"],
+        read["node_types"].ravel(),
+        read["motor"].ravel(),
     )
     count = len(places)
     shapes = joined.shape == (count, count) and places.shape == (count, 2) and len(fixed) == count

@@ -237,8 +237,8 @@ def listed(of: ValueType, count: int) -> ValueType:
         if not isinstance(value, list) or len(value) != count:
             raise table.error(key, f"must be a list of {count} {several}, such as {example}")
         items = table.listed(key)
-        found = tuple(items.attempt(of.read, items, item) for item in items.values)
-        return None if None in found else found
+        values = tuple(items.attempt(of.read, items, item) for item in items.values)
+        return None if None in values else values
 
     schema = {"type": "array", "items": of.schema, "minItems": count, "maxItems": count}
     words = of.words.replace("a length", f"{count} lengths").replace("a force", f"{count} forces")

@@ -122,19 +122,19 @@ def posed(top: Table) -> PosedLinks | None:
     polar = {name: of for name, of in tables["points"].items() if "base" in of}
     stated = {frozenset((name, of["base"])): of["length"] for name, of in polar.items()}
     slides = tuple(one for one in sliding if one)
-    found = PosedLinks(places, links, slides, tuple(one for one in gears if one), stated)
+    pose = PosedLinks(places, links, slides, tuple(one for one in gears if one), stated)
     problems = len(top.context.problems)
     for check in (_check_links, _check_points, _check_shared):
-        top.attempt(check, top, found)
+        top.attempt(check, top, pose)
     if len(top.context.problems) > problems:
         return None
-    return top.attempt(_with_lengths, top, found, tables["lengths"]) if tables["lengths"] else found
+    return top.attempt(_with_lengths, top, pose, tables["lengths"]) if tables["lengths"] else pose
 
 
 def _places(top: Table, points: Mapping[str, Any]) -> dict[str, complex]:
     """Return the points' places; refuse one that is measured from itself."""
-    found = {name: complex(*place) for name, place in points.items() if isinstance(place, tuple)}
-    waiting = {name: polar for name, polar in points.items() if name not in found}
+    places = {name: complex(*place) for name, place in points.items() if isinstance(place, tuple)}
+    waiting = {name: polar for name, polar in points.items() if name not in places}
     while waiting:
         ready = [name for name, polar in waiting.items() if polar.get("base") not in waiting]
         if not ready:
@@ -143,9 +143,9 @@ def _places(top: Table, points: Mapping[str, Any]) -> dict[str, complex]:
             raise table.error("from", "is measured from this point itself; give one of them as [x, y]")
         for name in ready:
             polar = waiting.pop(name)
-            base = found[polar["base"]] if "base" in polar else 0j
-            found[name] = base + complex(*on_circle(polar["length"], polar["angle"]))
-    return {name: found[name] for name in points}
+            base = places[polar["base"]] if "base" in polar else 0j
+            places[name] = base + complex(*on_circle(polar["length"], polar["angle"]))
+    return {name: places[name] for name in points}
 
 
 def _link(table: Table, key: str, name: str, links: Mapping[str, Any]) -> str:
@@ -291,7 +291,7 @@ def _refuse_mobility(top: Table, pose: PosedLinks) -> None:
     free = mobility(pose)
     table = top.table("links")
     if free > 1:
-        loose = [name for name in pose.links if name != GROUND and _held(pose, name) < 2]
+        loose = [name for name in pose.links if name != GROUND and _joints_of(pose, name) < 2]
         which = f"; {', '.join(loose[:3])} hangs by one joint only" if loose else ""
         more = "one more link" if free == 2 else f"{free - 1} more links"
         way_out = f"add {more} to hold it, or a gear pair"
@@ -300,7 +300,7 @@ def _refuse_mobility(top: Table, pose: PosedLinks) -> None:
         raise table.wrong(f"mobility {free}: nothing can move; leave out a link, or a point of one")
 
 
-def _held(pose: PosedLinks, link: str) -> int:
+def _joints_of(pose: PosedLinks, link: str) -> int:
     """Return how many joints and gears hold a link."""
     pins = sum(len(pose.at(point)) > 1 for point in pose.links[link])
     slides = sum(link in (slide.on, slide.link) or slide.point in pose.links[link] for slide in pose.slides)
@@ -630,7 +630,7 @@ def _further_motors(
     """Return each further motor as what turns its link so many times as far as the first motor's."""
     if not further:
         return ()
-    table, found = top.table("drive"), list[GearPair]()
+    table, motors = top.table("drive"), list[GearPair]()
     if "slide" in drive or "cylinder" in drive:
         raise top.error("drives", "go with a first motor that turns; leave them out, or the slide")
     first = _driven_links(table, pose, _pivot_of(table, pose, drive), drive.get("links"))
@@ -642,8 +642,8 @@ def _further_motors(
         if "start" in motor:
             raise own.error("start", "is that of the pose; leave it out")
         ratio = motor_ratio(own, motor["speed"], drive["speed"])
-        found.append(GearPair(name, (first[1], links[1]), ratio, GROUND, str(own.values["speed"])))
-    return tuple(found)
+        motors.append(GearPair(name, (first[1], links[1]), ratio, GROUND, str(own.values["speed"])))
+    return tuple(motors)
 
 
 def _group(chain: _Dyads, motor: GroupMotor | None = None, slide: str = "") -> tuple[GroupPoint, ...]:
@@ -689,13 +689,13 @@ def _group_slide(pose: PosedLinks, slide: PosedSlide) -> GroupSlide:
 
 def _connected(chain: _Dyads) -> list[str]:
     """Return the points, each link's one after the other, from the crank's and the ground's outwards."""
-    pose, found = chain.pose, dict.fromkeys(name for name in chain.pose.places if name in chain.known)
+    pose, reached = chain.pose, dict.fromkeys(name for name in chain.pose.places if name in chain.known)
     waiting = dict(pose.links)
     while waiting:
-        held = {name: sum(point in found for point in points) for name, points in waiting.items()}
+        held = {name: sum(point in reached for point in points) for name, points in waiting.items()}
         link = max(waiting, key=lambda name: held[name])
-        found |= dict.fromkeys(waiting.pop(link))
-    return list(found)
+        reached |= dict.fromkeys(waiting.pop(link))
+    return list(reached)
 
 
 def _document(top: Table, pose: PosedLinks, chain: _Dyads, driven: dict[str, Any]) -> dict[str, Any]:
@@ -725,18 +725,18 @@ def _moved(top: Table, pose: PosedLinks, name: str) -> bool:
 
 def _bodies(top: Table, chain: _Dyads) -> dict[str, Any]:
     """Return the links as bodies, with what [bodies] says of them."""
-    found: dict[str, Any] = {}
+    bodies: dict[str, Any] = {}
     for name, points in chain.pose.links.items():
         if name == GROUND:
             continue
         if len(points) > 1:
-            found[name] = {"joints": [*points]}
+            bodies[name] = {"joints": [*points]}
         elif name in chain.blocks:
-            found[name] = {"slider": points[0]}
+            bodies[name] = {"slider": points[0]}
     stated = top.table("bodies").values
     for name, body in stated.items():
-        found[name] = {**found.get(name, {}), **body} if isinstance(body, Mapping) else body
-    return found
+        bodies[name] = {**bodies.get(name, {}), **body} if isinstance(body, Mapping) else body
+    return bodies
 
 
 _OWN = ("joint", *(one.key for one in MOTOR_OF_POINTS))

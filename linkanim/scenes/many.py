@@ -114,7 +114,7 @@ def solve_many(
         places, rows_of = _layout_of(pose(scene, 0.0), derivatives)
         results = np.full((rows_of, count), np.nan)
     results[:, left] = np.nan
-    found = {kind: arrays(places, results, (count,), kind) for kind in places.places}
+    results_of = {kind: arrays(places, results, (count,), kind) for kind in places.places}
     read: dict[tuple[float, ...], Scene | None] = {}
     for n in np.flatnonzero(left):
         own = tuple(float(row[n]) for row in rows)
@@ -125,10 +125,10 @@ def solve_many(
         alone = pose(one, float(phases[n]))
         for kind, there in places.places.items():
             for name in (name for name, place in there.items() if isinstance(place, int)):
-                found[kind][name][n] = getattr(alone, kind)[name]
-    for values in found.values():
+                results_of[kind][name][n] = getattr(alone, kind)[name]
+    for values in results_of.values():
         read_only(tuple(values.values()))
-    return Many(scene, phases, **found)
+    return Many(scene, phases, **results_of)
 
 
 def _with(scene: Scene, values: Mapping[Key, float]) -> Scene | None:
@@ -180,7 +180,7 @@ def named_lengths(scene: Scene) -> Mapping[str, Number]:
 
 def _named(scene: Scene) -> dict[str, Number]:
     """Return the names that are one number's only."""
-    found: dict[str, list[Number]] = {}
+    by_name: dict[str, list[Number]] = {}
     for number in numbers(scene.document):
         if number.type.measure in LENGTHS:
             called = [".".join(map(str, key)) for key in (number.key[1:], number.key)]
@@ -188,8 +188,8 @@ def _named(scene: Scene) -> dict[str, Number]:
                 ends = set(number.ends(scene))
                 called += [body.name for body in scene.linkage.bodies if ends <= set(body.joints)]
             for name in dict.fromkeys(called):
-                found.setdefault(name, []).append(number)
-    return {name: several[0] for name, several in found.items() if len(several) == 1}
+                by_name.setdefault(name, []).append(number)
+    return {name: several[0] for name, several in by_name.items() if len(several) == 1}
 
 
 def _form(scene: Scene, keys: tuple[Key, ...]) -> LinkageForm:

@@ -67,16 +67,16 @@ class _PointForm:
     def _links(self) -> dict[str, list[str]]:
         """Return the links by their joints: bodies that share two joints, apart from each other, are one."""
         fixed = [pin.name for pin in self.linkage.pins]
-        found: list[list[str]] = [fixed]
+        links: list[list[str]] = [fixed]
         for frame in self.linkage.rigid_bodies[1:]:
             mine = [*frame]
-            for other in [one for one in found if self._as_one(one, mine)]:
-                found.remove(other)
+            for other in [one for one in links if self._as_one(one, mine)]:
+                links.remove(other)
                 mine = [*dict.fromkeys((*other, *mine))]
-            found.append(mine)
-        ground = next(one for one in found if not fixed or (fixed[0] in one and {*fixed} <= {*one}))
+            links.append(mine)
+        ground = next(one for one in links if not fixed or (fixed[0] in one and {*fixed} <= {*one}))
         named: dict[str, list[str]] = {GROUND: ground}
-        for joints in (one for one in found if one is not ground and len(one) > 1):
+        for joints in (one for one in links if one is not ground and len(one) > 1):
             bodies = (body.name for body in self.linkage.bodies if len({*body.joints} & {*joints}) > 1)
             name = next(bodies, "".join(joints))
             named[name if name not in named else f"{name}'"] = joints
@@ -124,26 +124,26 @@ class _PointForm:
         }
 
     def _gears(self) -> dict[str, dict[str, Any]]:
-        found = {}
+        gears = {}
         for crank in self.linkage.cranks:
             if crank.gear and not crank.gear.motor:
                 mate = self.linkage.crank(crank.gear.mate)
                 pair = [self.link_of(mate.pivot, mate.name), self.link_of(crank.pivot, crank.name)]
-                found[f"{mate.name}-{crank.name}"] = {"links": pair, "ratio": str(crank.gear.ratio)}
-        return found
+                gears[f"{mate.name}-{crank.name}"] = {"links": pair, "ratio": str(crank.gear.ratio)}
+        return gears
 
     def _lengths(self) -> dict[str, dict[str, float]]:
         """Return the lengths of bars as they were stated, but for those that follow from the points."""
-        found: dict[str, dict[str, float]] = {}
+        lengths: dict[str, dict[str, float]] = {}
         points = self._points()
         for joint in self.linkage.joints:
             for start, length in joint.bars:
                 ends = [points[name] for name in (start, joint.name)]
                 plain = all(float(f"{number:.{_STATED}g}") == number for place in ends for number in place)
                 if float(f"{length:.{_STATED}g}") == length and not (plain and math.dist(*ends) == length):
-                    link = found.setdefault(self.link_of(start, joint.name), {})
+                    link = lengths.setdefault(self.link_of(start, joint.name), {})
                     link[f"{start}-{joint.name}"] = length
-        return found
+        return lengths
 
     def _points(self) -> dict[str, list[float]]:
         """Return the places of the points, without what rounding has added to them."""
@@ -173,23 +173,23 @@ class _PointForm:
         return {"joint": driven.pivot, "links": links, **cylinder, **kept}
 
     def _motors(self) -> dict[str, Any]:
-        found = {}
+        motors = {}
         for name, motor in self.scene.document.get("drives", {}).items():
             crank = self.linkage.crank(motor["joint"])
             links = [GROUND, self.link_of(crank.pivot, crank.name)]
-            found[name] = {"joint": crank.pivot, "links": links, "speed": motor["speed"]}
-        return found
+            motors[name] = {"joint": crank.pivot, "links": links, "speed": motor["speed"]}
+        return motors
 
     def _bodies(self) -> dict[str, Any]:
         """Return what the document says of bodies beyond their joints."""
-        found = {}
+        bodies = {}
         for name, body in self.scene.document.get("bodies", {}).items():
             further = {key: value for key, value in body.items() if key not in ("joints", "slider")}
             if "joints" in body and ("com" in further or name not in self.links):
                 further["joints"] = body["joints"]
             if further:
-                found[name] = further
-        return found
+                bodies[name] = further
+        return bodies
 
     def document(self) -> dict[str, Any]:
         """Return the whole document."""

@@ -136,17 +136,17 @@ def _together(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> dic
 def _with_fit_references(top: Table, joint: Joint, stated: Stated) -> Joint:
     """Return a joint; BadInput where it is found from itself, or from joints that do not fit."""
     table = top.table("joints").table(joint.name)
-    found = dict[str, Joint | None]()
+    joints = dict[str, Joint | None]()
     moving: tuple[Key, str] | None = None
     for key, one, holder in fields_in(JOINTS.form(table.values), table.values):
         names = _references(one, holder)
-        found |= {name: stated.get(name) for name in names}
+        joints |= {name: stated.get(name) for name in names}
         for name in names:
             if reason := _unfit(joint, name, "" if one.unless in holder else one.must, stated):
                 raise _at(table, key, reason)
         if one.must == "moving":
             moving = key, names[0]
-    if moving and all(other and other.fixed for other in found.values()):
+    if moving and all(other and other.fixed for other in joints.values()):
         raise _at(table, moving[0], f"{moving[1]} is fixed, so nothing would move; name a joint that moves")
     return joint
 
@@ -159,13 +159,13 @@ def _references(one: Field, holder: Mapping[str, Any]) -> list[str]:
 
 def _unfit(joint: Joint, name: str, must: str, stated: Stated) -> str | None:
     """Say why a joint cannot be what another one needs; None where it can, or has a fault itself."""
-    found = stated.get(name)
+    kind = stated.get(name)
     if name == joint.name:
         return "a joint cannot be found from itself"
-    if must == "fixed" and found and not found.fixed:
+    if must == "fixed" and kind and not kind.fixed:
         pins = ", ".join(other.name for other in stated.values() if other and other.fixed)
         return f"{name} moves; name a fixed pin ({pins})"
-    if must == "crank" and found and not isinstance(found, Crank):
+    if must == "crank" and kind and not isinstance(kind, Crank):
         return f"{name} is not a crank"
     return None
 
@@ -208,16 +208,16 @@ def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:
 
 def _rigid(top: Table, joints: Iterable[Joint | None]) -> Table:
     """Return the file's table with its joints known; a dyad between joints of one body becomes its point."""
-    found: dict[str, Joint] = {}
+    placed_joints: dict[str, Joint] = {}
     bodies = rigid_bodies(())
     for joint in joints:
-        if joint is None or any(need not in found for need in joint.needs):
+        if joint is None or any(need not in placed_joints for need in joint.needs):
             continue
         placed = top.attempt(_on_one_body, top, joint, bodies)
         if placed is not None:
-            found[joint.name] = placed
+            placed_joints[joint.name] = placed
             bodies = placed.placed(bodies)
-    return replace(top, context=replace(top.context, joints=found, rigid=bodies))
+    return replace(top, context=replace(top.context, joints=placed_joints, rigid=bodies))
 
 
 def _on_one_body(top: Table, joint: Joint, bodies: tuple[RigidBody, ...]) -> Joint:
@@ -311,7 +311,7 @@ def read(
         return _read_points(top, name=name, goal=goal, check=check)
     top, short = _with_joints(top)
     top = top.attempt(_with_motors, _with_group(top, group), short) or top
-    top = top.attempt(_settled, top, short) or top
+    top = top.attempt(_in_usual_form, top, short) or top
     document = top.values
     bodies = _part(top, "bodies") or {}
     parts = {
@@ -341,7 +341,7 @@ def read(
 # Places by length and angle, and closures by a place that is near, are written as all others from here on.
 
 
-def _settled(top: Table, short: Expansion) -> Table:
+def _in_usual_form(top: Table, short: Expansion) -> Table:
     """Return the file's table with its joints' places on bodies and closures in their usual form."""
     tables = top.table("joints")
     for name, joint in top.context.joints.items() if top.context.sound else ():
@@ -374,10 +374,10 @@ def _nearer_side(top: Table, joint: RRR | RRP, short: Expansion) -> int:
         raise table.error("near", "is no place of a joint that the input moves; say the side instead")
     moving = mechanism(Linkage(tuple(before), drive))
     if drive.coordinate.is_angle and not drive.actuator.stated_lengths:
-        found = moving.solve(angle=drive.start, speed=1.0, derivatives=0).position
+        position = moving.solve(angle=drive.start, speed=1.0, derivatives=0).position
     else:
-        found = moving.solve(phase=pi / 2, speed=1.0, derivatives=0).position
-    at = {name: complex(*place) for name, place in found.items()}
+        position = moving.solve(phase=pi / 2, speed=1.0, derivatives=0).position
+    at = {name: complex(*place) for name, place in position.items()}
     here, near = at[joint.name], complex(*POINT.read(table, "near"))
     if here != here:
         raise table.error(
@@ -411,10 +411,10 @@ def _read_points(
             problems.append(top.error(key, f"does not go with [points]; {way_out}"))
     from linkanim.scenes.links import as_joints
 
-    found = None if problems else as_joints(top)
-    if found is None:
+    as_joints_document = None if problems else as_joints(top)
+    if as_joints_document is None:
         return None, problems
-    document, group = found
+    document, group = as_joints_document
     scene, further = read(document, name=name, where=top.where, goal=goal, check=check, group=group)
     if scene and group:
         scene = replace(scene, document=top.values)
@@ -509,12 +509,12 @@ def _with_joints(top: Table) -> tuple[Table, Expansion]:
 
 def _expansion(top: Table, o2: Pin | None) -> Expansion | None:
     """Return the meaning of the file's shorthand, about its first pin; an empty one without a shorthand."""
-    found = [key for key in SHORTHANDS if key in top]
-    if len(found) > 1:
-        raise top.wrong(f"has both [{found[0]}] and [{found[1]}]; keep one, write the other as [joints]")
-    if not found:
+    named = [key for key in SHORTHANDS if key in top]
+    if len(named) > 1:
+        raise top.wrong(f"has both [{named[0]}] and [{named[1]}]; keep one, write the other as [joints]")
+    if not named:
         return Expansion()
-    expansion: Expansion | None = SHORTHANDS[found[0]].made(top.table(found[0]), o2 or Pin("O2", (0.0, 0.0)))
+    expansion: Expansion | None = SHORTHANDS[named[0]].made(top.table(named[0]), o2 or Pin("O2", (0.0, 0.0)))
     return expansion if o2 else None
 
 
@@ -601,8 +601,8 @@ def problems(text: str, *, name: str, where: str) -> list[Problem]:
         return [_unparsed(error, text)]
     _, errors = read(document, name=name, where=where)
     lines = line_numbers(text) if errors else {}
-    found = dict.fromkeys(Problem(str(error), _line(lines, error.keys)) for error in errors)
-    return sorted(found, key=lambda problem: problem.line or 0)[:MOST_PROBLEMS]
+    problems_of = dict.fromkeys(Problem(str(error), _line(lines, error.keys)) for error in errors)
+    return sorted(problems_of, key=lambda problem: problem.line or 0)[:MOST_PROBLEMS]
 
 
 def _unparsed(error: BadInput, text: str) -> Problem:

@@ -183,8 +183,8 @@ class Scene:
         import numpy as np
 
         cycle = self.cycle(self.mechanism.count(96))
-        found = dict.fromkeys((*self.telling, *self.quantities))
-        return tuple(token for token in found if np.isfinite(self.quantities[token].read(cycle)).any())
+        tokens = dict.fromkeys((*self.telling, *self.quantities))
+        return tuple(token for token in tokens if np.isfinite(self.quantities[token].read(cycle)).any())
 
     @cached_property
     def length_step(self) -> float:
@@ -398,9 +398,9 @@ def given_numbers(name: str, given: ArrayLike, call: str = "solve") -> NDArray[n
     import numpy as np
 
     try:
-        found = np.asarray(given)
-        if found.dtype.kind in "fiubO":
-            return np.asarray(found, np.float64)
+        numbers = np.asarray(given)
+        if numbers.dtype.kind in "fiubO":
+            return np.asarray(numbers, np.float64)
     except (TypeError, ValueError):
         pass
     raise BadInput(f"{call}({name}={shown(given)}): give numbers, one or an array of them")

@@ -59,16 +59,16 @@ _ENDS = r"[\]}]|\"{3}|'{3}"
 
 def line_numbers(text: str) -> dict[Keys, int]:
     """Return the line (from 1) of every table and key of a TOML text; of the first ones in a long text."""
-    found: dict[Keys, int] = {}
+    numbers: dict[Keys, int] = {}
     table: Keys = ()
     for at, statement, document in _statements(text):
         if statement.lstrip().startswith("["):
             table = _keys_of(document)
-            found.setdefault(table, at)
+            numbers.setdefault(table, at)
         else:
             for keys in _keys(document):
-                found.setdefault((*table, *keys), at)
-    return found
+                numbers.setdefault((*table, *keys), at)
+    return numbers
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, Any]]:
@@ -107,12 +107,12 @@ def _keys_of(document: Any) -> Keys:
 
 def _keys(document: dict[str, Any]) -> list[Keys]:
     """Return the keys in a statement, those of the tables in it too."""
-    found: list[Keys] = []
+    read: list[Keys] = []
     for key, value in document.items():
-        found.append((key,))
+        read.append((key,))
         if isinstance(value, dict):
-            found += [(key, *keys) for keys in _keys(value)]
-    return found
+            read += [(key, *keys) for keys in _keys(value)]
+    return read
 
 
 # A scene back to TOML: text that reads to the same linkage, saved beside what is there, never over it.
@@ -135,7 +135,7 @@ def text(scene: Scene) -> str:
         raise SceneError(f"{scene.name}: has no scene file behind it that could be written; load it from one")
     inline: list[str] = []
     document = {key: _section(key, value, inline) for key, value in scene.document.items()}
-    return re.sub(_INLINE, lambda found: inline[int(found[1])], _lines(document))
+    return re.sub(_INLINE, lambda match: inline[int(match[1])], _lines(document))
 
 
 def save(scene: Scene, folder: Path) -> Path:
@@ -195,11 +195,11 @@ def _on_a_line(table: Mapping[str, Any]) -> str:
 def _lines(document: Mapping[str, Any]) -> str:
     import tomli_w
 
-    outer = re.sub(_LIST, lambda found: f" = {_on_one_line(found)}", tomli_w.dumps(document))
-    return re.sub(_INNER_LIST, lambda found: f"    {_on_one_line(found)},", outer)
+    outer = re.sub(_LIST, lambda match: f" = {_on_one_line(match)}", tomli_w.dumps(document))
+    return re.sub(_INNER_LIST, lambda match: f"    {_on_one_line(match)},", outer)
 
 
-def _on_one_line(found: re.Match[str]) -> str:
+def _on_one_line(match: re.Match[str]) -> str:
     """Return a list as people write it, [283, 165], rather than an item a line."""
-    items = (line.strip().removesuffix(",") for line in found[1].splitlines())
+    items = (line.strip().removesuffix(",") for line in match[1].splitlines())
     return f"[{', '.join(items)}]"

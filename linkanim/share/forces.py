@@ -32,8 +32,8 @@ def forces(light: Picture, dark: Picture, speed: float, pairs: Pairs) -> Mover |
     if not scene.linkage.reacting:
         return None
     arrows, other = (arrows_of(one.figure, FORCE, one.size[1], one.gauge, one.theme) for one in (light, dark))
-    found = [*pulls(scene.solve(phase=cycle.phase, speed=speed))]
-    every = [np.broadcast_to(one.value, (len(cycle.phase), 2)) for one in found]
+    pulls_there = [*pulls(scene.solve(phase=cycle.phase, speed=speed))]
+    every = [np.broadcast_to(one.value, (len(cycle.phase), 2)) for one in pulls_there]
     most = [_greatest(arrows, speed, value) for value in every]
 
     def read(phases: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -45,7 +45,7 @@ def forces(light: Picture, dark: Picture, speed: float, pairs: Pairs) -> Mover |
     columns = [column for value in every for column in value.T]
     unbounded = {place for column in columns for place in unbounded_places(cycle.phase, column).tolist()}
     held = table(scene, (0.0, scene.period), read, sorted(unbounded), _NEAR)
-    ways = held.values.reshape(2, len(found), 2, -1)
+    ways = held.values.reshape(2, len(pulls_there), 2, -1)
     top = np.nanmax(np.abs(ways), axis=(0, 2, 3), initial=0.0) + np.finfo(float).tiny
     steps = ways / top[:, None, None] * _STEPS
     alike = np.allclose(ways[0], ways[1], rtol=0.0, atol=_NEAR, equal_nan=True)
@@ -60,16 +60,18 @@ def forces(light: Picture, dark: Picture, speed: float, pairs: Pairs) -> Mover |
     return {
         "kind": "arrows",
         "order": 0,
-        "at": [one.joint or shares_of(light, one.body, at) for one, at in zip(found, starts, strict=True)],
-        "usual": len(found),
-        "symbols": [one.symbol for one in found],
+        "at": [
+            one.joint or shares_of(light, one.body, at) for one, at in zip(pulls_there, starts, strict=True)
+        ],
+        "usual": len(pulls_there),
+        "symbols": [one.symbol for one in pulls_there],
         **shown,
         "longest": arrows.longest,
         "drawn": arrows.longest_drawn,
         "colours": pairs.variables((arrows.colour, arrows.halo), (other.colour, other.halo)),
         "grain": (np.array(most) * top / _STEPS).tolist(),
         "values": [_packed(way) for way in (steps[:1] if alike else steps)],
-        **held.said,
+        **held.data,
     }
 
 

@@ -32,11 +32,11 @@ def law_of(scene: Scene, quantity: Quantity) -> Law | None:
     motion = scene.solve(phase=_PHASES, speed=1.0)
     true = np.asarray(quantity.shown(motion), float)
     for law in _candidates(scene, quantity.token):
-        found = _read(law, motion)
+        values = _read(law, motion)
         gain, shift = degrees(1.0) if quantity.unit == "rad" else 1.0, 0.0
-        if law["of"] == "span" and quantity.unit == "N" and np.ptp(found) > 0:
-            gain, shift = np.polyfit(found, true, 1).tolist()
-        off = np.abs(true - gain * found - shift)
+        if law["of"] == "span" and quantity.unit == "N" and np.ptp(values) > 0:
+            gain, shift = np.polyfit(values, true, 1).tolist()
+        off = np.abs(true - gain * values - shift)
         if quantity.unit == "rad":
             off = np.abs((off + 180.0) % 360.0 - 180.0)
         if (off <= _SAME * max(float(np.abs(true).max()), 1e-9)).all():
@@ -99,16 +99,16 @@ def _read(law: Law, motion: Any) -> NDArray[np.float64]:
         own = (motion.position, motion.velocity, motion.acceleration)
         masses = (motion.com_position, motion.com_velocity, motion.com_acceleration)
         body = name.removesuffix(centre(""))
-        found = (kind[name] for kind in own) if name in own[0] else (kind[body] for kind in masses)
-        return [np.broadcast_to(np.asarray(one) @ [1, 1j], motion.phase.shape) for one in found]
+        values = (kind[name] for kind in own) if name in own[0] else (kind[body] for kind in masses)
+        return [np.broadcast_to(np.asarray(one) @ [1, 1j], motion.phase.shape) for one in values]
 
     first, order = places(law["at"][0]), law["order"]
     if law["of"] == "point":
         return _component(first[order], law["axis"])
     p, v, a = (other - one for one, other in zip(first, places(law["at"][1]), strict=True))
     if law["of"] == "travel":
-        found: NDArray[np.float64] = ((p, v, a)[order] * complex(*law["way"]).conjugate()).real
-        return found
+        values: NDArray[np.float64] = ((p, v, a)[order] * complex(*law["way"]).conjugate()).real
+        return values
     rates = (np.abs(p), (p.conj() * v).real / np.abs(p))
     if law["of"] == "span":
         return rates[order]

@@ -30,17 +30,17 @@ def model(scene: Scene) -> dict[str, Any] | None:
     linkage = scene.linkage
     if linkage.drive.actuator.along is not None or scene.info.change_points or scene.info.true_period != 1:
         return None
-    found = _Model(scene)
-    joints = [found.joint(joint) for joint in linkage.joints]
-    if any(joint is None for joint in joints) or not found.shown:
+    model_of = _Model(scene)
+    joints = [model_of.joint(joint) for joint in linkage.joints]
+    if any(joint is None for joint in joints) or not model_of.shown:
         return None
     gears = scene.mechanism.assembly.gears
     bar = four_bar_of(scene.mechanism)
     single = bar is not None and sum(joint.dyad for joint in linkage.joints) == 1
     return {
         "joints": joints,
-        "values": found.values,
-        "sliders": found.shown,
+        "values": model_of.values,
+        "sliders": model_of.shown,
         "drive": linkage.drive.joint,
         "ground": next(pin.name for pin in linkage.pins),
         "retraced": linkage.drive.retraced,
@@ -54,7 +54,7 @@ def model(scene: Scene) -> dict[str, Any] | None:
             "rockers": [said("triple-rocker ({kind})", kind=said(TRIPLE_ROCKERS[part])) for part in LINKS],
             "change": [said("change-point {kind}", kind=said(GRASHOF[part])) for part in LINKS],
         },
-        "fourBar": found.four_bar(bar.joint) if bar and single else None,
+        "fourBar": model_of.four_bar(bar.joint) if bar and single else None,
     }
 
 

@@ -88,15 +88,15 @@ class Pairs:
 
         So the outline of a gear's teeth is held once, and not three times.
         """
-        layers, found = [*zip(light, dark, strict=True)], list[str]()
+        layers, outlines = [*zip(light, dark, strict=True)], list[str]()
         while layers:
             one, other = layers.pop(0)
             shapes = self.elements([one], [other])
             if layers and (wide := _width_along(one, layers[0][0])):
                 line = _coloured(self._coded(*layers.pop(0)).colour)
                 shapes = f'{shapes.removesuffix("/>")} stroke="{line}" stroke-width="{wide:.3g}"/>'
-            found.append(shapes)
-        return "".join(found)
+            outlines.append(shapes)
+        return "".join(outlines)
 
     def styles(self, themes: tuple[ThemeName, ThemeName], stated: ThemeName | None) -> str:
         """Return the style sheet of the colours, ink and background among them by their names.
@@ -247,8 +247,8 @@ def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
     """Return the places on the grid at which stretches begin, end, and are checked between."""
     shares = np.array((0.0, *_PROBES, 1.0)) * step
     begins = np.unique(np.concatenate([*open_.values()]))
-    found: Whole = np.unique(np.add.outer(begins, shares.astype(np.int64)) % GRID)
-    return found
+    looked_at: Whole = np.unique(np.add.outer(begins, shares.astype(np.int64)) % GRID)
+    return looked_at
 
 
 def _halved(open_: Mapping[str, Whole], solved: _Solved, step: int) -> Iterator[tuple[str, Whole]]:
@@ -277,13 +277,13 @@ class _Solved:
 
     def at(self, name: str, places: Whole) -> Loop:
         """Return position and derivatives (3, …) at places on the grid."""
-        found: Loop = self._known[name][:, np.searchsorted(self._grid, places)]
-        return found
+        path: Loop = self._known[name][:, np.searchsorted(self._grid, places)]
+        return path
 
     def track(self, name: str, nodes: Whole) -> Track:
         """Return a point's track through nodes."""
-        found = self.at(name, nodes)
-        return Track(nodes, found[0], found[1:])
+        path = self.at(name, nodes)
+        return Track(nodes, path[0], path[1:])
 
 
 def _pixels(motion: Motion, scene: Scene, view: View) -> Iterator[Loop]:
@@ -294,9 +294,9 @@ def _pixels(motion: Motion, scene: Scene, view: View) -> Iterator[Loop]:
     of_mass: tuple[Any, ...] = (motion.com_position, motion.com_velocity, motion.com_acceleration)
     for some, names in ((kinds, joints), (of_mass, centres)):
         for name in names:
-            found = np.stack([np.broadcast_to(kind[name] @ DOWN, motion.phase.shape) for kind in some])
-            found = view.scale * found + np.array([[complex(view.x, view.y)], [0], [0]])
-            yield np.where(np.isfinite(found), found, np.array([[_NOWHERE], [0], [0]]))
+            path = np.stack([np.broadcast_to(kind[name] @ DOWN, motion.phase.shape) for kind in some])
+            path = view.scale * path + np.array([[complex(view.x, view.y)], [0], [0]])
+            yield np.where(np.isfinite(path), path, np.array([[_NOWHERE], [0], [0]]))
 
 
 def quintic(begin: Loop, end: Loop, width: float) -> Loop:
@@ -330,13 +330,13 @@ def evaluated(coefficients: Loop, share: Any) -> Any:
     return value
 
 
-def packed_tracks(found: Mapping[str, Track]) -> dict[str, Any]:
+def packed_tracks(tracks: Mapping[str, Track]) -> dict[str, Any]:
     """Return tracks as a page holds them: nodes, places, rates, and what places are steps of.
 
     Places are whole steps of a grain, in 32 bits, from the point's first one, so that those of a small path
     are as fine as its accelerations need.
     """
-    return {name: [*_packed(track)] for name, track in found.items()}
+    return {name: [*_packed(track)] for name, track in tracks.items()}
 
 
 def _packed(track: Track) -> Iterator[Any]:
@@ -351,8 +351,8 @@ def _packed(track: Track) -> Iterator[Any]:
 
 def _parts(values: Loop) -> NDArray[np.float64]:
     """Return real and imaginary parts one after the other."""
-    found: NDArray[np.float64] = np.ascontiguousarray(values).view(np.float64)
-    return found
+    parts: NDArray[np.float64] = np.ascontiguousarray(values).view(np.float64)
+    return parts
 
 
 def packed(values: Any, kind: str) -> str:
@@ -580,8 +580,8 @@ def shares_of(picture: Picture, body: str, place: tuple[float, float]) -> tuple[
 
     Of a body with one joint they are alike, and the place is so many pixels off.
     """
-    pose, found = picture.scene.pose(0.0, 0), picture.scene.linkage.body(body)
-    joints = found.joints or (str(found.slider),)
+    pose, pose_places = picture.scene.pose(0.0, 0), picture.scene.linkage.body(body)
+    joints = pose_places.joints or (str(pose_places.slider),)
     ends = [picture.view.pixel(pose.position[name]) for name in joints]
     off = picture.view.pixel(place) - ends[0]
     share = off / (ends[1] - ends[0]) if len(ends) > 1 else off

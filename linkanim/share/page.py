@@ -109,16 +109,16 @@ def _row(scene: Scene, label: str, unit: str, step: float, asked: _Asked) -> dic
         motions = (scene.solve(phase=phases, speed=speed) for speed in speeds)
         return np.array([shown(motion) for motion in motions], float)
 
-    found = table(scene, (0.0, scene.period), read, (), _OF_A_ROW * 10.0 ** -_digits(step))
-    forth, back = found.values[0], found.values[-1]
+    values = table(scene, (0.0, scene.period), read, (), _OF_A_ROW * 10.0 ** -_digits(step))
+    forth, back = values.values[0], values.values[-1]
     sign = next((sign for sign in (1, -1) if np.array_equal(back, sign * forth)), 0)
-    some = found.values if sign == 0 else found.values[:1]
+    some = values.values if sign == 0 else values.values[:1]
     kind = kind_of(some)
-    packs = {"values": [packed(one, kind) for one in some], **_said(kind), **found.said}
+    packs = {"values": [packed(one, kind) for one in some], **_number_type(kind), **values.data}
     return {"label": label, "unit": unit, "digits": _digits(step), **packs, "back": sign}
 
 
-def _said(kind: str) -> dict[str, str]:
+def _number_type(kind: str) -> dict[str, str]:
     """Return the entry that tells a page the type of numbers; none for the usual one."""
     return {} if kind == "<f4" else {"kind": kind[1:]}
 
@@ -152,8 +152,8 @@ def _table(panel: ChartPanel, least: float) -> Tabulated:
     unbounded = (unbounded_places(series.phases, column) for column in series.values.T)
 
     def read(phases: NDArray[np.float64]) -> NDArray[np.float64]:
-        found = np.asarray(panel.quantity.shown(scene.solve(phase=phases, speed=panel.speed)), float)
-        columns: NDArray[np.float64] = found.T if found.ndim == 2 else found[None]
+        values = np.asarray(panel.quantity.shown(scene.solve(phase=phases, speed=panel.speed)), float)
+        columns: NDArray[np.float64] = values.T if values.ndim == 2 else values[None]
         if series.unit != "°":
             return columns
         x, drawn = panel.curves  # an angle is in the turn in which it is drawn
@@ -168,18 +168,18 @@ def _table(panel: ChartPanel, least: float) -> Tabulated:
 def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs, laws: Sequence[Law | None]) -> dict[str, Any]:
     course, scene = light.course, light.figure.scene
     span = light.plot.y.high - light.plot.y.low
-    found = _table(light, _OF_A_CHART * span)
-    kind = kind_of(found.values)
+    values = _table(light, _OF_A_CHART * span)
+    kind = kind_of(values.values)
     curves = [
         {
             "label": light.series.labels[n],
             "colour": pairs.variable(light.colour(n), dark.colour(n)),
             "values": packed(column, kind),
             "law": laws[n],
-            **_said(kind),
-            **found.said,
+            **_number_type(kind),
+            **values.data,
         }
-        for n, column in enumerate(found.values)
+        for n, column in enumerate(values.values)
     ]
     words, themes = light.quantity.title(scene.length_unit), (light.pen.theme, dark.pen.theme)
     titles = (words, words.removeprefix(f"{light.quantity.words} "), course.title, said("time (s)"))
@@ -276,7 +276,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
     sides = [_Side(shared, *drawn, pairs) for drawn in closures]
     known: dict[str, str] = {}
     shapes = "\n".join(side.markup(n, known) for n, side in enumerate(sides))
-    found = {
+    page = {
         "period": scene.period,
         "retraced": scene.mechanism.retraced,
         "way": None if scene.mechanism.way is None else round(begin_of(scene) / pi),
@@ -289,10 +289,10 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
         "sides": [side.data() for side in sides],
     }
     script = "\n".join(map(_bare, map(packaged, ("shapes.js", "solver.js", "lengths.js", "page.js"))))
-    found["said"] = {text: said(text) for text in script_words(script) if said(text) != text}
-    found = _short(found)
+    page["said"] = {text: said(text) for text in script_words(script) if said(text) != text}
+    page = _short(page)
     if lengths := sides[0].model():
-        found["model"] = lengths  # in all its digits: it is solved, not only drawn
+        page["model"] = lengths  # in all its digits: it is solved, not only drawn
     sheet = pairs.styles(shared.themes, shared.theme)
     kind = scene.info.class_said
     digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
@@ -306,7 +306,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
         faces=FACES,
         view=f"0 0 {size[0]} {size[1]}",
         shapes=shapes,
-        data=json.dumps(found, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
+        data=json.dumps(page, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
         script=script,
     )
 
@@ -373,10 +373,10 @@ class _Side:
 
     def model(self) -> dict[str, Any] | None:
         """Return the linkage for the page's solver, for other lengths; None where that cannot solve it."""
-        found = model(self._scene)
-        if found is None:
+        own_model = model(self._scene)
+        if own_model is None:
             return None
-        return {**found, "unit": self._scene.length_unit, "masses": self._masses()}
+        return {**own_model, "unit": self._scene.length_unit, "masses": self._masses()}
 
     def _masses(self) -> dict[str, Any]:
         """Return each centre of mass as shares of the way between two joints, along it and to its right.

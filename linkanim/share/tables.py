@@ -57,7 +57,7 @@ class Tabulated(NamedTuple):
     poles: tuple[Pole, ...]
 
     @property
-    def said(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Any]:
         """What a page is told of the parts, places with all their digits."""
         poles = {"poles": packed(self.poles, "<f8")} if self.poles else {}
         return {"ends": packed(self.ends, "<f8"), "steps": list(self.steps), **poles}
@@ -74,10 +74,10 @@ def table(
     turned = [math.pi * n for n in range(0 if scene.info.full_turn else round(scene.period / math.pi))]
     places = _apart(sorted({*turned, *(place % scene.period for place in unbounded)}), scene.period)
     poles = tuple(_poles(read, places, scene.period))
-    found = sorted(_parts(_Sought(scene, whole, read, poles, near), places))
-    values = np.concatenate([values for *_, values in found], axis=1)
-    ends = (*(low for low, *_ in found), 1.0)
-    return Tabulated(values, ends, tuple(steps for _, _, steps, _ in found), poles)
+    parts = sorted(_parts(_Sought(scene, whole, read, poles, near), places))
+    values = np.concatenate([values for *_, values in parts], axis=1)
+    ends = (*(low for low, *_ in parts), 1.0)
+    return Tabulated(values, ends, tuple(steps for _, _, steps, _ in parts), poles)
 
 
 def _apart(places: Sequence[float], period: float) -> list[float]:
@@ -104,10 +104,10 @@ class _Sought(NamedTuple):
 
     def weight(self, phases: Values) -> Values:
         """Return the factors (n,) that keep values from growing towards the poles."""
-        found = np.ones_like(phases)
+        weights = np.ones_like(phases)
         for place, power in self.poles:
-            found *= np.abs(np.sin((phases / self.scene.period - place) * math.pi)) ** power
-        return found
+            weights *= np.abs(np.sin((phases / self.scene.period - place) * math.pi)) ** power
+        return weights
 
 
 _Part = tuple[float, float, int]
@@ -148,10 +148,10 @@ def _looked_at(sought: _Sought, parts: Sequence[_Part]) -> Iterator[tuple[_Part,
         for low, high, _ in parts
     ]
     phases = [np.linspace(*ends, 2 * part[2] + 1) for ends, part in zip(way, parts, strict=True)]
-    found = sought.read(np.concatenate(phases))
+    read = sought.read(np.concatenate(phases))
     first = 0
     for part, own in zip(parts, phases, strict=True):
-        values, weight = found[:, first : first + len(own)], sought.weight(own)
+        values, weight = read[:, first : first + len(own)], sought.weight(own)
         first += len(own)
         held, true = (values * weight)[:, ::2], values[:, 1::2]
         with np.errstate(invalid="ignore"):

@@ -154,8 +154,8 @@ class Fit(CouplerLinkage):
             return math.inf
         own, theirs = (Linkage4(*fit.joints[[0, 2, 4, 1, 6]].tolist()) for fit in (self, other))
         share = (theirs.P - theirs.A) / (theirs.B - theirs.A)
-        found = cognate_joints((theirs.O2, theirs.O4), share, (theirs.A, theirs.B, theirs.P))
-        off = [np.abs(np.array(own) - Linkage4(*joints, theirs.P)).max() for joints in found]
+        cognates = cognate_joints((theirs.O2, theirs.O4), share, (theirs.A, theirs.B, theirs.P))
+        off = [np.abs(np.array(own) - Linkage4(*joints, theirs.P)).max() for joints in cognates]
         return float(min(off) / self.task.curve.size)
 
     @property
@@ -281,8 +281,8 @@ def checked_again(task: PathTask, fit: Fit, chosen: Indices) -> Fit | None:
     turn = np.array([[math.copysign(answer.round, places[-1] - places[0])]])
     along = task.spread(places[None], turn, chosen, np.arange(len(task.curve.points)))[0]
     exact = fit.exact and checked_again(task, fit.exact, chosen)
-    found = _fit(replace(task, requirements=fit.task.requirements), answer, along)
-    return found and replace(found, exact=exact)
+    again = _fit(replace(task, requirements=fit.task.requirements), answer, along)
+    return again and replace(again, exact=exact)
 
 
 class _Answer(NamedTuple):
@@ -586,8 +586,8 @@ class PathAnswer(NamedTuple):
     def passed(self) -> Complex:
         """Points that its joints pass in a turn of the crank."""
         angles = self.start + self.sense * _TURN
-        found: Complex = FOUR_BAR.joints(np.array([self.row]), np.array([self.closure]), angles[None])[0]
-        return found.ravel()
+        points: Complex = FOUR_BAR.joints(np.array([self.row]), np.array([self.closure]), angles[None])[0]
+        return points.ravel()
 
     @property
     def numbers(self) -> tuple[float, ...]:

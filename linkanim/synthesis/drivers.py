@@ -150,21 +150,21 @@ def all_driven(
     it is, as one whose input turns fully does. One that no driver swings is left out; BadInput where none is
     left.
     """
-    found, refused = list[Answer](), list[BadInput]()
+    with_drivers, refused = list[Answer](), list[BadInput]()
     for answer in answers:
         angles = None if answer.scene.info.full_turn else angles_of(answer)
         if angles is None:
-            found.append(answer)
+            with_drivers.append(answer)
             continue
         try:
             scene, driver = driven(answer.scene, angles, place)
         except BadInput as error:
             refused.append(error)
         else:
-            found.append(replace(answer, scene=scene, driver=driver))  # type: ignore[type-var]
-    if refused and not found:
+            with_drivers.append(replace(answer, scene=scene, driver=driver))  # type: ignore[type-var]
+    if refused and not with_drivers:
         raise refused[0]
-    return tuple(found)
+    return tuple(with_drivers)
 
 
 def driven(scene: Scene, angles: Real, place: complex | None) -> tuple[Scene, Driver]:
@@ -180,13 +180,13 @@ def driven(scene: Scene, angles: Real, place: complex | None) -> tuple[Scene, Dr
     drivers = _drivers(scene, float(angles[0]), float(angles[-1]), place)
     for driver in sorted(drivers, key=lambda one: -np.abs(passed - one.motor).min()):
         try:
-            found = scene_from(driver.document, name=scene.name, where=scene.name)
+            scene_driven = scene_from(driver.document, name=scene.name, where=scene.name)
         except (AssemblyError, SceneError):
             continue
-        there = found.solve(phase=driver.phases(on_the_way), derivatives=0).position
+        there = scene_driven.solve(phase=driver.phases(on_the_way), derivatives=0).position
         off = max(float(np.abs(as_complex(own[name]) - as_complex(there[name])).max()) for name in own)
-        if found.info.full_turn and off <= _MET * max(np.ptp(passed.real), np.ptp(passed.imag)):
-            return found, driver
+        if scene_driven.info.full_turn and off <= _MET * max(np.ptp(passed.real), np.ptp(passed.imag)):
+            return scene_driven, driver
     raise BadInput(f"{scene.name}: no driver swings it from its first place to its last")
 
 
@@ -210,15 +210,15 @@ def _drivers(scene: Scene, first: float, last: float, place: complex | None) -> 
     far = bar * away if place is None else abs(place - pivot)
     arm = min(bar, far / away)
     rod = math.sqrt(far**2 - (arm * cosine) ** 2)
-    found = list[Driver]()
+    drivers = list[Driver]()
     for turn in (math.atan2(rod, arm * cosine), -math.atan2(rod, arm * cosine)):
         motor, angle = pivot + far * cmath.exp(1j * (first + swing / 2 + turn)), 0.0
         if place is not None:
             motor = place
             angle = math.remainder(cmath.phase(place - pivot) - turn - swing / 2 - first, math.tau)
         kept = math.acos(sine * far / rod)
-        found.append(Driver(motor, arm * sine, rod, arm, angle, kept, (first, last), scene))
-    return found
+        drivers.append(Driver(motor, arm * sine, rod, arm, angle, kept, (first, last), scene))
+    return drivers
 
 
 def _input(scene: Scene) -> tuple[complex, float]:

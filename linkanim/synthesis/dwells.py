@@ -203,25 +203,25 @@ def dwell(
         raise BadInput(f"a least transmission angle of {math.degrees(least_angle):g} deg: give 0 to 90 deg")
     stated = {"length_unit": unit, "source": source}
     dyads = sorted(_dyads(rest, swing, least_angle), key=lambda pair: pair[0])
-    found = list[Dwell]()
+    answers = list[Dwell]()
     for _, dyad in dyads[: _MORE * count]:
         one = _made(dyad, rest, swing, stroke, stated, name)
         if (
             one
             and one.transmission_angle >= least_angle
-            and all(differ(one.figures, other.figures) for other in found)
+            and all(differ(one.figures, other.figures) for other in answers)
         ):
-            found.append(one)
-        if len(found) == count:
+            answers.append(one)
+        if len(answers) == count:
             break
-    if not found:
+    if not answers:
         wanted = f"swings by {math.degrees(swing):g} deg" if swing else "slides"
         raise BadInput(
             f"no six-bar {wanted} and rests for {math.degrees(rest):g} deg of the crank at transmission "
             f"angles of {math.degrees(least_angle):g} deg; ask for a shorter rest, or a smaller least angle"
         )
-    found.sort(key=lambda one: one.figures.deviation)
-    return tuple(led([one.figures for one in found], found))
+    answers.sort(key=lambda one: one.figures.deviation)
+    return tuple(led([one.figures for one in answers], answers))
 
 
 def _arcs(rest: float, least_angle: float) -> Iterator[tuple[float, _Arc]]:

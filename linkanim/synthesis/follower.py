@@ -101,12 +101,12 @@ class Follower:
         try:
             parts = self._fits(request, pulse) if isinstance(request, Follow) else self._guided(request)
             for fits, chosen, way in parts:
-                numbers, along = self._told(fits), self._told(way)
+                numbers, along = self._kept(fits), self._kept(way)
                 yield Reply(request.stroke, chosen is not None, numbers, chosen or 0, way=along)
         except LinkanimError as error:
             yield Reply(request.stroke, whole=True, error=str(error))
 
-    def _told(self, fits: Sequence[Fit | GuidedLinkage]) -> tuple[float, ...]:
+    def _kept(self, fits: Sequence[Fit | GuidedLinkage]) -> tuple[float, ...]:
         """Keep answers, and return their numbers in a row."""
         rows = [(answer_of(one) if isinstance(one, Fit) else pose_answer_of(one)).numbers for one in fits]
         self._known |= dict(zip(rows, fits, strict=True))

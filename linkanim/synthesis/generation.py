@@ -226,12 +226,12 @@ def pairs_of(rows: Sequence[Sequence[float]] | Real, *, sliding: bool) -> GivenF
 
     BadInput for another number of them than 3 to 5, and for two with one first angle.
     """
-    found = sorted((float(one), float(other)) for one, other in rows)
-    if not FEWEST_POINTS <= len(found) <= MOST_POINTS or not can_be_computed(*np.ravel(found)):
+    pairs = sorted((float(one), float(other)) for one, other in rows)
+    if not FEWEST_POINTS <= len(pairs) <= MOST_POINTS or not can_be_computed(*np.ravel(pairs)):
         raise BadInput(
-            f"{len(found)} pairs are given: a linkage takes {FEWEST_POINTS} to {MOST_POINTS}, each {NUMBERS}"
+            f"{len(pairs)} pairs are given: a linkage takes {FEWEST_POINTS} to {MOST_POINTS}, each {NUMBERS}"
         )
-    x, y = np.array(found).T
+    x, y = np.array(pairs).T
     x, y = np.degrees(x), y if sliding else np.degrees(y)
     same = np.flatnonzero(np.diff(x) <= 0)
     if len(same):
@@ -466,10 +466,10 @@ def function(
         raise BadInput(f"prefer={shown(prefer)}: take balanced or exact")
     motor = options.pop("driver", False)
     place = place_of(motor)
-    found = answers(task_of(given, first, last, **options), count, exact=prefer == "exact")
+    generated = answers(task_of(given, first, last, **options), count, exact=prefer == "exact")
     if motor is False:
-        return found
-    return all_driven(found, place, lambda one: one.input_start + np.array([0.0, one.input_range]))
+        return generated
+    return all_driven(generated, place, lambda one: one.input_start + np.array([0.0, one.input_range]))
 
 
 def task_of(
@@ -748,9 +748,9 @@ def _at_start(
         return solved[:, column] - start if sliding else np.sin(solved[:, column] - start)
 
     phases = np.linspace(0.0, math.tau, 4 * _CURVE + 1)
-    found = rows(sign_changes(lambda at: off(rows(at)), phases, _CLOSELY))
+    starts = rows(sign_changes(lambda at: off(rows(at)), phases, _CLOSELY))
     # the sine is 0 half a turn off, too, where the link points the other way
-    return found if sliding else found[np.cos(found[:, column] - start) > 0]
+    return starts if sliding else starts[np.cos(starts[:, column] - start) > 0]
 
 
 def _generated(

@@ -163,13 +163,13 @@ def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[Guid
         raise BadInput(f"prefer={shown(prefer)}: take {' or '.join(PREFERENCES)}, or leave it out")
     motor = options.pop("driver", False)
     place, line = place_of(motor), mirror_of(options.pop("mirror", None))
-    found = answers(task_of(poses, **options), count, PREFERENCES[prefer] if prefer else None)
+    guided = answers(task_of(poses, **options), count, PREFERENCES[prefer] if prefer else None)
     if motor is not False:
-        found = tuple(
+        guided = tuple(
             replace(one, phases=one.driver.phases(one.angles)) if one.driver else one
-            for one in all_driven(found, place, _on_the_way)
+            for one in all_driven(guided, place, _on_the_way)
         )
-    return paired(found, line)
+    return paired(guided, line)
 
 
 def _on_the_way(one: GuidedLinkage) -> Real | None:
@@ -381,7 +381,7 @@ def _phases_in(boxes: Sequence[Box], curve: CentreCurve) -> Real:
     return np.concatenate(parts)
 
 
-def _held(task: GuideTask, pivot: complex) -> _EndChoice:
+def _bars_at(task: GuideTask, pivot: complex) -> _EndChoice:
     """Return the bars that end at a given pivot; BadInput where there is none, with the nearest possible."""
     poses = task.poses
     where = f"the pivot at {pivot.real:g}, {pivot.imag:g}"
@@ -670,7 +670,7 @@ def _all_pairs(ends: tuple[_EndChoice, _EndChoice]) -> _Pairs:
 
 def _ends(task: GuideTask) -> list[tuple[_EndChoice, _EndChoice]]:
     """Return for each way to hold the coupler the choices of its crank and of its other end."""
-    held = [_held(task, pivot) for pivot in task.pivots]
+    held = [_bars_at(task, pivot) for pivot in task.pivots]
     if task.kind is SLIDER_CRANK:
         return [(held[0] if held else _bars(task), _slides(task))]
     if len(held) == 2:

@@ -119,8 +119,10 @@ def with_image(scene: Scene, mirror: Mirror) -> Scene:
         "trace": {"joints": [*traced, *(image[name] for name in traced)]},
     }
     try:
-        found = scene_from(pair, name=scene.name, where=scene.name)
-        places = {name: as_complex(at) for name, at in found.cycle(_POSES, derivatives=0).position.items()}
+        scene_of_pair = scene_from(pair, name=scene.name, where=scene.name)
+        places = {
+            name: as_complex(at) for name, at in scene_of_pair.cycle(_POSES, derivatives=0).position.items()
+        }
     except (AssemblyError, SceneError):
         places = {}
     far = max((float(np.abs(at).max()) for at in places.values()), default=0.0)
@@ -129,4 +131,4 @@ def with_image(scene: Scene, mirror: Mirror) -> Scene:
         raise BadInput(
             f"{scene.name}: its input only swings, and gears do not take its image along; ask for a driver"
         )
-    return found
+    return scene_of_pair

@@ -119,8 +119,8 @@ def path(
         fits = with_round_lengths(fits, rounding, pulse)
         fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
     fits = _with_cognates(fits, rounding, pulse) if cognates else fits
-    best, *found = _at_all_points(task, [most_exact, *fits], chosen, pulse)
-    listed = [replace(fit, most_exact=best or fit) for fit in found if fit]
+    best, *others = _at_all_points(task, [most_exact, *fits], chosen, pulse)
+    listed = [replace(fit, most_exact=best or fit) for fit in others if fit]
     if not listed:
         raise BadInput(none_fits(task))
     marked = with_cognates_marked(listed)
@@ -136,19 +136,19 @@ def front_behind(fits: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ..
     """Return the whole front from which answers of `path` were chosen, the most exact first."""
     task = fits[0].task
     chosen = task.thinned(_SEARCHED)
-    found = _at_all_points(task, searched_front(task.among(chosen), pulse=pulse), chosen, pulse)
-    return front_of([*fits, *filter(None, found)])
+    checked = _at_all_points(task, searched_front(task.among(chosen), pulse=pulse), chosen, pulse)
+    return front_of([*fits, *filter(None, checked)])
 
 
 def _at_all_points(task: PathTask, fits: Iterable[Fit], chosen: Indices, pulse: Pulse) -> list[Fit | None]:
     """Return answers to the task among chosen points as they are at all points; None for one that is none."""
     if len(chosen) == len(task.curve.points):
         return list(fits)
-    found = list[Fit | None]()
+    checked = list[Fit | None]()
     for fit in fits:
         pulse()
-        found.append(checked_again(task, fit, chosen))
-    return found
+        checked.append(checked_again(task, fit, chosen))
+    return checked
 
 
 def _with_cognates(fits: Sequence[Fit], rounding: float | None, pulse: Pulse) -> tuple[Fit, ...]:

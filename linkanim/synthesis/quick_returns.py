@@ -132,11 +132,11 @@ class DeadCentreFamily:
             if self.kind == "slider-crank":
                 crank, coupler, off = self.lengths(x)
                 # if the pivot's foot is between the dead centres, the nearer one is in the other circuit
-                found = angle_of(np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan))
+                angle = angle_of(np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan))
             else:
                 crank, coupler, rocker, ground = self.rocker(x)
-                found = least_of_turn(crank, coupler, rocker, np.abs(ground))
-            return np.where(found > 0, found, np.nan)
+                angle = least_of_turn(crank, coupler, rocker, np.abs(ground))
+            return np.where(angle > 0, angle, np.nan)
 
     def at(self, longer: float) -> float:
         """Return the x of a coupler that is so many cranks long."""

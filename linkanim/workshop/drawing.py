@@ -77,14 +77,14 @@ class Drawn:
 
     def _open(self) -> list[tuple[str, int, complex]]:
         """Return the holes through which no pin passes: the joint, the layer and the place, in mm."""
-        pinned, found = {pin.name for pin in self.made.pins}, []
+        pinned, open_pins = {pin.name for pin in self.made.pins}, []
         placed = self.made.placed(self.phase)
         for number in self._order():
             at, turn = placed[number]
             for hole in self.made.plates[number].holes:
                 if hole.joint and hole.joint not in pinned:
-                    found.append((hole.joint, self.made.layer[number], at + turn * hole.at))
-        return found
+                    open_pins.append((hole.joint, self.made.layer[number], at + turn * hole.at))
+        return open_pins
 
     def plan(self) -> Iterator[Item]:
         """Yield the plates seen from above, each with its number, and the names of joints at their holes."""

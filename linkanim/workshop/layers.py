@@ -48,16 +48,16 @@ class Budget:
 
     def __init__(self, most: int, told: Callable[[int, int], None] | None = None) -> None:
         """Begin with none of the `most` done."""
-        self.done, self.most, self._told, self._next = 0, most, told, 0
+        self.done, self.most, self._clash, self._next = 0, most, told, 0
 
     def spend(self, work: int) -> None:
         """Do some more; GivenUp where it is too much."""
         self.done += work
         if self.done > self.most:
             raise GivenUp
-        if self._told and self.done >= self._next:
+        if self._clash and self.done >= self._next:
             self._next = self.done + self.most // 200
-            self._told(self.done, self.most)
+            self._clash(self.done, self.most)
 
 
 class GivenUp(Exception):
@@ -113,7 +113,7 @@ def stacked(
         return Unstackable((), ())
     if levels is None or (hanging and not bridge):
         blamed = tuple(_to_blame(kit, clashes, work))
-        told = tuple(_told(kit, pair, near[pair].phase) for pair in blamed)
+        told = tuple(_clash(kit, pair, near[pair].phase) for pair in blamed)
         return Unstackable(told, tuple(kit.pins[n].name for n in hanging))
     through = _nodes(kit, hanging)
     levels, least = _fewest(levels, choices, bridged=bool(hanging))
@@ -208,7 +208,7 @@ def _to_blame(kit: Kit, clashes: Sequence[tuple[int, int]], work: Budget) -> lis
     return blamed
 
 
-def _told(kit: Kit, pair: tuple[int, int], phase: float) -> Clash:
+def _clash(kit: Kit, pair: tuple[int, int], phase: float) -> Clash:
     def called(number: int) -> str:
         plates = len(kit.plates)
         return kit.plates[number].name if number < plates else f"the pin at {kit.pins[number - plates].name}"
@@ -240,14 +240,14 @@ def _clique(nodes: int, choices: Sequence[Choice], *, bridged: bool) -> int:
             for b in other:
                 apart[a] |= 1 << b
                 apart[b] |= 1 << a
-    found = 0
+    largest = 0
     for first in range(nodes):
         size, left = 1, apart[first]
         while left:
             best = max(_bits(left), key=lambda node: (left & apart[node]).bit_count())
             size, left = size + 1, left & apart[best]
-        found = max(found, size)
-    return found
+        largest = max(largest, size)
+    return largest
 
 
 class _Below:
@@ -326,21 +326,21 @@ def _ordered(
     tries = [(_Below.framed(nodes, bridged=bridged), list(choices), (1 << nodes) - 1)]
     while tries:
         known, left, changed = tries.pop()
-        found = _settled(known, left, layers, work, changed)
-        if found is None:
+        order = _with_only_ways(known, left, layers, work, changed)
+        if order is None:
             continue
-        if not found:
+        if not order:
             return known.levels()
-        first = _hardest(known, found) if layers < nodes else 0
-        one, other = found[first]
-        rest = found[:first] + found[first + 1 :]
+        first = _hardest(known, order) if layers < nodes else 0
+        one, other = order[first]
+        rest = order[:first] + order[first + 1 :]
         for low, up in ((other, one), (one, other)):
             tried = known.copy()
             tries.append((tried, rest, tried.put(low, up)))
     return None
 
 
-def _settled(
+def _with_only_ways(
     known: _Below, left: list[Choice], layers: int, work: Budget, changed: int
 ) -> list[Choice] | None:
     """Add to what is known each way that is the only one of a choice; None where a choice has none left.

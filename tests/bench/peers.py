@@ -42,7 +42,7 @@ from linkanim.bench.questions import (
     TurnStep,
     circle_dyad,
     joined,
-    placed,
+    joints_at,
     point_on,
 )
 from linkanim.bench.reference import Solve
@@ -89,7 +89,7 @@ def closed(close: Close) -> Callable[[Question], Places]:
 
     def places(question: Question) -> Places:
         sides = question.sides
-        return placed(question.chain, question.angles, lambda dyad, at: close(dyad, at, sides[dyad.name]))
+        return joints_at(question.chain, question.angles, lambda dyad, at: close(dyad, at, sides[dyad.name]))
 
     return places
 
@@ -159,7 +159,7 @@ def newton(iterations: int) -> Callable[[Question], Places]:
         at = dict(question.start)
         for angle in question.angles.tolist():
             last = at
-            at = placed(
+            at = joints_at(
                 question.chain,
                 angle,
                 lambda dyad, at: _improved(dyad, at, last[dyad.name], iterations),  # noqa: B023
@@ -220,7 +220,7 @@ def _integrated(question: Question) -> Iterator[dict[str, complex]]:
 
 def _with_dyads(chain: DyadChain, angle: float, state: list[complex]) -> dict[str, complex]:
     dyads = iter(state)
-    return placed(chain, angle, lambda dyad, at: next(dyads), cmath.exp)
+    return joints_at(chain, angle, lambda dyad, at: next(dyads), cmath.exp)
 
 
 def _slopes(chain: DyadChain, angle: float, state: list[complex]) -> list[complex]:
@@ -381,7 +381,7 @@ def fsolve(question: Question) -> Orders:
     def close(dyad: Dyad, at: Places) -> Any:
         return np.array([_found(dyad, at, row, before) for row in rows])
 
-    return (placed(question.chain, question.angles, close),)
+    return (joints_at(question.chain, question.angles, close),)
 
 
 def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> complex:

@@ -68,7 +68,7 @@ def test_the_manual_shows_such_a_table_and_counts_the_hard_poses() -> None:
 
 
 def test_beside_what_is_measured_stands_what_the_manual_s_table_has_of_other_methods() -> None:
-    found = report.beside_recorded(result())
+    found = report.with_recorded(result())
     assert found.rows[: len(result().rows)] == result().rows
     recorded = {(one.mechanism, one.key): one for one in found.rows[len(result().rows) :]}
     assert {mechanism for mechanism, _ in recorded} == {"four-bar", "press"}, "those that are measured"

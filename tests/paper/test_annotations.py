@@ -10,7 +10,7 @@ import pytest
 
 from linkanim.intake import NumberRow
 from linkanim.paper.chart import Page, _apart, _by_unit
-from linkanim.paper.curves import Curve, MeasuredTable, Pace, beside, curves_of, extremes
+from linkanim.paper.curves import Curve, MeasuredTable, Pace, comparison, curves_of, extremes
 from linkanim.paper.findings import Values, topics
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
@@ -225,7 +225,7 @@ def test_no_word_lies_on_a_measured_point(scene: str) -> None:
         NumberRow(n, (float(x), float(value)))
         for n, (x, value) in enumerate(zip(curve.x[:-1:12], curve.values[:-1:12], strict=True))
     )
-    page = Page(curves, size=(960, 540), measured=beside(curves, MeasuredTable("t", "", rows), "t"))
+    page = Page(curves, size=(960, 540), measured=comparison(curves, MeasuredTable("t", "", rows), "t"))
     items = list(page.items())
     inner = [item for item in items if isinstance(item, Layer)][-1]
     dots = [complex(loop.mean()) for loop in inner.loops]

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.paper.curves import MeasuredCurve, Pace, beside, curves_of, read_table, table, usual_over
+from linkanim.paper.curves import MeasuredCurve, Pace, comparison, curves_of, read_table, table, usual_over
 from linkanim.picture.look import Over
 from linkanim.scenes import load
 
@@ -18,7 +18,7 @@ PACE = Pace(10.0, "10 rad/s")
 
 def laid(path: Path, scene: str, token: str, over: Over | None) -> MeasuredCurve:
     curves = curves_of(load(scene), (token,), (PACE,), over)
-    return beside(curves, read_table(path, usual_over(curves), curves.curves[0].quantity), "theirs")
+    return comparison(curves, read_table(path, usual_over(curves), curves.curves[0].quantity), "theirs")
 
 
 def written(path: Path, first: ArrayLike, values: ArrayLike, heading: str = "") -> Path:

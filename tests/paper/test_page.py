@@ -13,7 +13,7 @@ import pytest
 
 from linkanim.intake import NumberRow
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import MeasuredTable, Pace, beside, curves_of
+from linkanim.paper.curves import MeasuredTable, Pace, comparison, curves_of
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.raster import Layer, offscreen
@@ -302,7 +302,7 @@ def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> No
     angles = np.array([0.0, 87.0, 200.0, 359.0])
     exact = np.degrees(scene.solve(angle=np.radians(angles)).angle["3"])
     errors = np.array([0.0, 0.02, 360.0 - 0.05, 0.01])
-    found = beside(page.curves, _table(angles, exact + errors), "measured")
+    found = comparison(page.curves, _table(angles, exact + errors), "measured")
     assert found.differences == pytest.approx([0.0, 0.02, -0.05, 0.01])
     assert found.worst == 2
     assert [x for x, _ in found.points] == pytest.approx(angles)
@@ -321,7 +321,7 @@ def test_a_table_of_rates_is_compared_at_the_charts_speed_also_of_a_swing() -> N
     phases = np.array([0.5, 1.0, 2.0])
     motion = page.curves.scene.solve(phase=phases, speed=3.0)
     table = _table(np.degrees(motion.coordinate), motion.angular_velocity["rocker"])
-    assert beside(page.curves, table, "t").differences == pytest.approx(0.0, abs=1e-9)
+    assert comparison(page.curves, table, "t").differences == pytest.approx(0.0, abs=1e-9)
 
 
 def test_curves_that_share_a_plot_differ_by_their_dashes() -> None:

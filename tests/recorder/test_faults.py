@@ -208,9 +208,9 @@ def test_a_file_that_cannot_be_read_back_for_ever_is_given_up(
 ) -> None:
     monkeypatch.setattr(encode, "_STILL", 0.2)
     with pytest.raises(RecordingFailed, match="made no progress"):
-        encode.told(["sh", "-c", "echo 1; sleep 1000"])
-    assert encode.told(["sh", "-c", "echo 1"]) == b"1\n"
-    assert encode.told(["sh", "-c", "echo 1; exit 3"]) == b""
+        encode.output_of(["sh", "-c", "echo 1; sleep 1000"])
+    assert encode.output_of(["sh", "-c", "echo 1"]) == b"1\n"
+    assert encode.output_of(["sh", "-c", "echo 1; exit 3"]) == b""
 
 
 # By a clock that stands, no time goes by, however often it is looked whether the process goes on.
@@ -218,7 +218,7 @@ def test_a_file_that_cannot_be_read_back_for_ever_is_given_up(
 def test_only_time_without_progress_ends_a_process(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(encode, "_STILL", 0.02)
     monkeypatch.setattr(time, "monotonic", lambda: 1000.0)
-    assert encode.told(["sh", "-c", "sleep 0.05; echo 1"]) == b"1\n"
+    assert encode.output_of(["sh", "-c", "sleep 0.05; echo 1"]) == b"1\n"
 
 
 def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pytest.MonkeyPatch) -> None:

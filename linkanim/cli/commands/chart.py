@@ -11,7 +11,7 @@ from linkanim.cli.picture_options import Canvas, scene_canvas_target
 from linkanim.errors import BadInput
 from linkanim.manifest import Output
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Curves, MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
+from linkanim.paper.curves import Curves, MeasuredCurve, Pace, comparison, curves_of, read_table, usual_over
 from linkanim.paper.latex import labels_of
 from linkanim.paper.polar import PolarPage
 from linkanim.paper.sentences import without_subscripts
@@ -106,7 +106,7 @@ def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:
             raise BadInput("--label names the table of --data; add --data OTHER.csv")
         return None
     table = read_table(options.data, usual_over(curves), curves.curves[0].quantity)
-    return beside(curves, table, options.label or options.data.stem)
+    return comparison(curves, table, options.label or options.data.stem)
 
 
 def _difference(curves: Curves, measured: MeasuredCurve) -> str:

@@ -34,12 +34,12 @@ def run(options: Namespace) -> None:
         return
     if not options.files:
         raise BadInput("name the scene files to check, such as `linkanim check my-linkage.toml`")
-    found = [_checked(Path(file)) for file in along(options.files, " files", len(options.files))]
-    print(json_text([_object(one) for one in found], indent=2) if options.json else _words(found))
-    wrong = [one for one in found if one.problems]
+    checked = [_checked(Path(file)) for file in along(options.files, " files", len(options.files))]
+    print(json_text([_object(one) for one in checked], indent=2) if options.json else _words(checked))
+    wrong = [one for one in checked if one.problems]
     if wrong:
         count = sum(len(one.problems) for one in wrong)
-        raise BadInput(f"{_count(count, 'problem')} in {len(wrong)} of {_count(len(found), 'file')}")
+        raise BadInput(f"{_count(count, 'problem')} in {len(wrong)} of {_count(len(checked), 'file')}")
 
 
 def _count(number: int, noun: str) -> str:
@@ -52,13 +52,13 @@ def _checked(path: Path) -> Checked:
         text = SCENE_FILE.read(path, where)
     except BadInput as error:
         return Checked(where, [Problem(str(error))], None)
-    found = problems(text, name=path.stem, where=where)
-    return Checked(where, found, None if found else load(path))
+    problems_there = problems(text, name=path.stem, where=where)
+    return Checked(where, problems_there, None if problems_there else load(path))
 
 
-def _words(found: Iterable[Checked]) -> str:
+def _words(checked: Iterable[Checked]) -> str:
     lines = []
-    for file, wrong, scene in found:
+    for file, wrong, scene in checked:
         if scene is not None:
             notes = "".join(f"; {note}" for note in _notes(scene))
             lines.append(f"{file}: good: {scene.title}: {scene.info.class_name}{notes}")
@@ -69,7 +69,7 @@ def _words(found: Iterable[Checked]) -> str:
 
 
 def _object(one: Checked) -> dict[str, object]:
-    found = [
+    listed = [
         {"line": problem.line, "message": problem.message.removeprefix(f"{one.file}: ")}
         for problem in one.problems
     ]
@@ -78,7 +78,7 @@ def _object(one: Checked) -> dict[str, object]:
         "class": one.scene.info.class_name,
         "notes": _notes(one.scene),
     }
-    return {"file": one.file, "good": not found, "problems": found, "scene": scene or None}
+    return {"file": one.file, "good": not listed, "problems": listed, "scene": scene or None}
 
 
 def _notes(scene: Scene) -> list[str]:

@@ -26,19 +26,19 @@ def run(options: Namespace) -> None:
     scene = load(options.scene)
     picture, files = _targets(options)
     with bar(unit=" tried") as progress:
-        found = closures(scene, progress)
+        choices = closures(scene, progress)
     paths: list[str] = []
     if files:
-        paths = [str(path) for path in write([one.scene for one in found], files)]
+        paths = [str(path) for path in write([one.scene for one in choices], files)]
     if options.json:
-        print(json_text([_object(one, n) for n, one in enumerate(found, start=1)], indent=2))
+        print(json_text([_object(one, n) for n, one in enumerate(choices, start=1)], indent=2))
     else:
-        rows = [described(found, n) for n in range(len(found))]
+        rows = [described(choices, n) for n in range(len(choices))]
         print(columns([_TITLES, *rows]))
     for path in paths:
         print(path)
     if picture:
-        _draw(found, picture)
+        _draw(choices, picture)
 
 
 def _targets(options: Namespace) -> tuple[Output | None, Path | None]:
@@ -50,12 +50,12 @@ def _targets(options: Namespace) -> tuple[Output | None, Path | None]:
     return checked_output(options.output, "", (".toml", *SUFFIXES), inputs_of(options)), None
 
 
-def _draw(found: Sequence[SceneClosure], picture: Output) -> None:
+def _draw(choices: Sequence[SceneClosure], picture: Output) -> None:
     from linkanim.recorder.sheet import MOST_TILES, record_sheet, still_sheet
 
-    if len(found) > MOST_TILES:
-        raise BadInput(f"a picture shows {MOST_TILES} closures at the most, and there are {len(found)}")
-    scenes = [one.scene for one in found]
+    if len(choices) > MOST_TILES:
+        raise BadInput(f"a picture shows {MOST_TILES} closures at the most, and there are {len(choices)}")
+    scenes = [one.scene for one in choices]
     if picture.path.suffix.lower() == ".png":
         with picture.replacing() as part:
             part.write_bytes(still_sheet(scenes))

@@ -21,11 +21,11 @@ def run(options: Namespace) -> None:
 
 def _commands(parser: ArgumentParser) -> Mapping[str, ArgumentParser]:
     """Return the parser of each command."""
-    found: dict[str, ArgumentParser] = {}
+    commands: dict[str, ArgumentParser] = {}
     for action in parser._actions:
         if isinstance(action, _SubParsersAction):
-            found = dict(action.choices)
-    return found
+            commands = dict(action.choices)
+    return commands
 
 
 def _options(parser: ArgumentParser) -> Iterator[Action]:
@@ -38,13 +38,13 @@ def _option_strings(parser: ArgumentParser) -> list[str]:
 
 def _first_words(parser: ArgumentParser) -> list[str]:
     """Return the choices of a command's words that are no options, with scenes and chapters among them."""
-    found: list[str] = []
+    words: list[str] = []
     for action in parser._actions:
         if not action.option_strings:
-            found += map(str, action.choices or ())
-            found += names() if action.dest == "scene" else ()
-            found += chapters() if "CHAPTER" in str(action.metavar) else ()
-    return found
+            words += map(str, action.choices or ())
+            words += names() if action.dest == "scene" else ()
+            words += chapters() if "CHAPTER" in str(action.metavar) else ()
+    return words
 
 
 def _bash(parser: ArgumentParser, commands: Mapping[str, ArgumentParser]) -> str:

@@ -17,10 +17,10 @@ _HANDED_ON = ("rest", "stroke", "swing", "count", "least_angle")
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON."""
     target = target_of(options.output, "dwell.toml", options.count)
-    found = dwell(
+    answers = dwell(
         **{name: getattr(options, name) for name in _HANDED_ON}, name=target.stem, source="linkanim dwell"
     )
-    deliver(found, target, options, _TITLES, _cells, _object)
+    deliver(answers, target, options, _TITLES, _cells, _object)
 
 
 def _cells(one: Dwell) -> tuple[str, ...]:

@@ -48,16 +48,16 @@ def _listed() -> str:
 
 def _names() -> list[str]:
     """Return the files' names: the numbered ones, then the data that they and the manual read."""
-    found = (path.name for path in FOLDER.iterdir() if path.is_file())
-    return sorted(found, key=lambda name: (not _NUMBERED.match(name), name))
+    files = (path.name for path in FOLDER.iterdir() if path.is_file())
+    return sorted(files, key=lambda name: (not _NUMBERED.match(name), name))
 
 
 def _about(name: str) -> str:
     """Return what an example shows, from its first lines."""
     if not _NUMBERED.match(name):
         return "data for an example or for the manual"
-    found = re.search(rf"\b{name[:2]}  ([^\n\"\\]+)", _head(name))
-    return found[1].partition(":  ")[0].strip().rstrip(".,") if found else ""
+    match = re.search(rf"\b{name[:2]}  ([^\n\"\\]+)", _head(name))
+    return match[1].partition(":  ")[0].strip().rstrip(".,") if match else ""
 
 
 def _head(name: str) -> str:
@@ -70,9 +70,9 @@ def _named(word: str) -> list[str]:
     if word == "all":
         return every
     number = f"{word:0>2}-"
-    found = [name for name in every if word in (name, Path(name).stem) or name.startswith(number)]
-    if not found:
+    matching = [name for name in every if word in (name, Path(name).stem) or name.startswith(number)]
+    if not matching:
         raise BadInput(
             f"no example is called {shown(word)}{meant(word, every)}; `linkanim examples` lists them"
         )
-    return [*found, *(name for name in every if not _NUMBERED.match(name) and name in _head(found[0]))]
+    return [*matching, *(name for name in every if not _NUMBERED.match(name) and name in _head(matching[0]))]

@@ -76,28 +76,28 @@ def run(options: Namespace) -> None:
         tell_of_scene(versions[0].request.scene, LATEX)
 
 
-def _figure(found: Solution) -> str:
-    if not found.loops:
+def _figure(solution: Solution) -> str:
+    if not solution.loops:
         return ""
-    drawn = embedded(vectors_svg(found), f"Vector loops of {found.title}")
+    drawn = embedded(vectors_svg(solution), f"Vector loops of {solution.title}")
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
-def _dimensioned(found: Solution) -> str:
-    figured = dimensioned(found.request.scene, found.phase)
-    drawn = embedded(figured.document(), f"{found.title}: dimensions")
+def _dimensioned(solution: Solution) -> str:
+    figured = dimensioned(solution.request.scene, solution.phase)
+    drawn = embedded(figured.document(), f"{solution.title}: dimensions")
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
-def _free(found: Solution) -> str:
+def _free(solution: Solution) -> str:
     # on a phone it is not so small that it cannot be read, and is moved sideways
-    least = f"min-width: {_PANEL * min(len(panels(found)), 3)}px"
-    drawn = embedded(free_bodies_svg(found), f"Free bodies of {found.title}", least)
+    least = f"min-width: {_PANEL * min(len(panels(solution)), 3)}px"
+    drawn = embedded(free_bodies_svg(solution), f"Free bodies of {solution.title}", least)
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
-def _construction(found: Solution) -> str:
-    page = ConstructionPage(found.request.scene, size=_CONSTRUCTION)
+def _construction(solution: Solution) -> str:
+    page = ConstructionPage(solution.request.scene, size=_CONSTRUCTION)
     drawn = svg(page.size, None, page.groups(), title=page.title)
     return f"<figure class='vectors'>{embedded(drawn, page.title)}</figure>"
 
@@ -149,16 +149,16 @@ def _rounded(request: PoseRequest) -> PoseRequest:
     the same closure there.
     """
     value = request.value if request.by == "angle" else radians(round(degrees(request.value), 1))
-    found = replace(request, value=value, speed=float(f"{request.speed:.4g}"))
+    rounded = replace(request, value=value, speed=float(f"{request.speed:.4g}"))
     if not (request.swings and request.scene.linkage.drive.actuator.along is None):
-        return found
+        return rounded
     if not request.scene.linkage.drive.coordinate.is_angle:
-        return found
-    was = found.motion()
+        return rounded
+    was = rounded.motion()
     angle, speed = radians(round(degrees(was.coordinate), 1)), float(f"{was.coordinate_rate:.4g}")
-    stated = replace(found, by="angle", value=angle, speed=speed)
+    stated = replace(rounded, by="angle", value=angle, speed=speed)
     far = max(abs(stated.motion().position[name] - at).max() for name, at in was.position.items())
-    return stated if far < _NEAR * request.scene.linkage.longest else found
+    return stated if far < _NEAR * request.scene.linkage.longest else rounded
 
 
 def _pose(scene: Scene, options: Namespace) -> PoseRequest:

@@ -36,7 +36,7 @@ def run(options: Namespace) -> None:
         given = [(math.radians(x), y if sliding else math.radians(y)) for x, y in rows]
     elif _names_a_file(options.given):
         given = _table(Path(options.given))
-    found = function(
+    answers = function(
         given,
         options.first,
         options.last,
@@ -52,9 +52,9 @@ def run(options: Namespace) -> None:
         name=target.stem,
         source=f"linkanim function {options.given}",
     )
-    deliver(found, target, options, _TITLES, _cells, _object)
+    deliver(answers, target, options, _TITLES, _cells, _object)
     if chart is not None:
-        _draw(found[0], chart)
+        _draw(answers[0], chart)
 
 
 def _names_a_file(text: str) -> bool:

@@ -32,11 +32,13 @@ def run(options: Namespace) -> None:
     target = target_of(options.output, f"{options.poses.stem}.toml", options.count)
     handed: dict[str, Any] = {name: getattr(options, name) for name in _HANDED_ON}
     handed["driver"] = motor_of(options)
-    found = guide(poses, **handed, name=target.stem, source=f"linkanim guide for {named(options.poses.name)}")
-    deliver(found, target, options, _TITLES, _cells, _object)
-    _remark(found)
-    if len(poses) == MOST and len(found) < options.count:
-        _tell_longer(found, guide(poses, **{**handed, "count": MOST_ANSWERS, "largest": 1e9}))
+    answers = guide(
+        poses, **handed, name=target.stem, source=f"linkanim guide for {named(options.poses.name)}"
+    )
+    deliver(answers, target, options, _TITLES, _cells, _object)
+    _remark(answers)
+    if len(poses) == MOST and len(answers) < options.count:
+        _tell_longer(answers, guide(poses, **{**handed, "count": MOST_ANSWERS, "largest": 1e9}))
 
 
 def _poses(path: Path) -> Real:
@@ -85,10 +87,10 @@ def _object(one: GuidedLinkage) -> dict[str, object]:
     }
 
 
-def _tell_longer(found: Sequence[GuidedLinkage], every: Sequence[GuidedLinkage]) -> None:
+def _tell_longer(answers: Sequence[GuidedLinkage], every: Sequence[GuidedLinkage]) -> None:
     """Say on stderr how many of the few linkages for five poses are left out for links that are too long."""
-    if len(every) > len(found):
-        more, longest = len(every) - len(found), max(one.size / one.task.poses.size for one in every)
+    if len(every) > len(answers):
+        more, longest = len(every) - len(answers), max(one.size / one.task.poses.size for one in every)
         linkages = "linkage has" if more == 1 else "linkages have"
         most = significant(math.ceil(longest), 12)
         print(
@@ -97,9 +99,9 @@ def _tell_longer(found: Sequence[GuidedLinkage], every: Sequence[GuidedLinkage])
         )
 
 
-def _remark(found: Sequence[GuidedLinkage]) -> None:
+def _remark(answers: Sequence[GuidedLinkage]) -> None:
     """Say on stderr, where every answer has a defect, what the defects mean."""
-    if all(one.defects for one in found):
+    if all(one.defects for one in answers):
         print(
             "every answer has a defect: circuit, it would have to be taken apart between poses; branch, it "
             "would have to pass a limit of its crank; order, it passes them in another order",

@@ -31,18 +31,18 @@ _CALLED = {"class": "class_name", "links": "link_names"}
 def run(options: Namespace) -> None:
     """Print the scene's class, limits and what follows from them, in words or as one JSON object."""
     scene = load(options.scene)
-    found = tolerances.asked(scene, options)
+    tolerance = tolerances.asked(scene, options)
     balance = _balance(scene, options)
     if options.json:
         facts = as_object(scene) | evened(scene, options.fluctuation)
-        facts |= {} if found is None else {"tolerance": tolerances.object_of(found)}
+        facts |= {} if tolerance is None else {"tolerance": tolerances.object_of(tolerance)}
         print(json_text(facts, indent=2))
     else:
         print(as_words(scene, options.fluctuation))
-        if found is not None:
-            print(f"\n{tolerances.table_of(found)}")
-    if found is not None and options.chart is not None:
-        tolerances.draw(found, options.chart)
+        if tolerance is not None:
+            print(f"\n{tolerances.table_of(tolerance)}")
+    if tolerance is not None and options.chart is not None:
+        tolerances.draw(tolerance, options.chart)
     if balance is not None:
         tolerances.draw_page(balance, options.balance)
 
@@ -54,9 +54,9 @@ def _balance(scene: Scene, options: Namespace) -> BalanceChart | None:
     from linkanim.paper.balance import BalanceChart
 
     options.balance = checked_target(options.balance, tolerances.CHARTS, [options.scene])
-    found = BalanceChart(scene=scene)
-    assert found.both
-    return found
+    balance = BalanceChart(scene=scene)
+    assert balance.both
+    return balance
 
 
 def as_words(scene: Scene, fluctuation: float) -> str:
@@ -101,13 +101,13 @@ def _evened_lines(scene: Scene, fluctuation: float) -> Iterator[tuple[str, str]]
         within = f"{significant(100 * fluctuation, 4)} % at {rpm(abs(speed))}"
         yield "flywheel", f"{inertia} kg m² keeps the speed within {within}"
     if weights := counterweights(scene.linkage):
-        yield "counterweights", "; ".join(_placed(scene, one) for one in weights)
+        yield "counterweights", "; ".join(_in_words(scene, one) for one in weights)
         (force, moment), (after, turning) = _shaken(scene, weights)
         yield "shaking force", _from_to(force, after, "N")
         yield "shaking moment", _from_to(moment, turning, "N m")
 
 
-def _placed(scene: Scene, one: Counterweight) -> str:
+def _in_words(scene: Scene, one: Counterweight) -> str:
     """Return a counterweight in words."""
     far = f"{significant(abs(one.place), 4)} {scene.length_unit}"
     turned = typeset(significant(degrees(phase(one.place)), 4))

@@ -59,13 +59,13 @@ def _about(words: list[str]) -> str:
     for chapter, title in titles.items():
         if name in (chapter, title.casefold()):
             return manual.printed(chapter, width)
-    found = manual.search(words)
-    if not found:
+    sections = manual.search(words)
+    if not sections:
         sought = " ".join(words)
         raise BadInput(
             f"the manual has nothing on {shown(sought)}{meant(sought, titles)}; it has {', '.join(titles)}"
         )
-    first, *others = found
+    first, *others = sections
     text = manual.section_text(first, width)
     listed = "".join(f"  {one.chapter:<14} {one.heading.strip('`')}\n" for one in others[:_FURTHER])
     more = f"\n\nAlso (linkanim manual CHAPTER prints a whole chapter):\n{listed}" if others else ""

@@ -54,8 +54,8 @@ def run(options: Namespace) -> None:
     if front is not None:
         steps = count(1)
         with bar(unit=" steps") as progress:
-            found = front_behind(fits, lambda: progress(next(steps), 0))
-        write_text(front, _table(found))
+            best_front = front_behind(fits, lambda: progress(next(steps), 0))
+        write_text(front, _table(best_front))
     on_front = front_of(fits)
     deliver(fits, target, options, _TITLES, _cells, lambda fit: _object(fit) | {"front": fit in on_front})
     _remark(fits, cognates=options.cognates)
@@ -84,7 +84,7 @@ def _cells(fit: Fit) -> tuple[str, ...]:
 
 def _object(fit: Fit) -> dict[str, object]:
     """Return what `--json` prints of an answer."""
-    found: dict[str, object] = {
+    document: dict[str, object] = {
         "rms": fit.rms,
         "largest": fit.largest,
         "rms_percent": _percent(fit.rms, fit),
@@ -101,8 +101,8 @@ def _object(fit: Fit) -> dict[str, object]:
         **({"driver": fit.driver.plain} if fit.driver else {}),
     }
     if fit.exact is not None:
-        found["rms_before_rounding"] = fit.exact.rms
-    return found
+        document["rms_before_rounding"] = fit.exact.rms
+    return document
 
 
 _SHARES = ("rms_percent", "largest_percent", "size", "room")
@@ -136,8 +136,8 @@ def _remark(fits: Sequence[Fit], *, cognates: bool) -> None:
     """Say on stderr if no answer follows well, what exactness and rounding cost, and cognates left out."""
     best = fits[0]
     if _percent(best.rms, best) > _POOR:
-        found = significant(_percent(best.rms, best), 3)
-        print(f"nothing follows it better than {found} % of its size; this is the best", file=sys.stderr)
+        percent = significant(_percent(best.rms, best), 3)
+        print(f"nothing follows it better than {percent} % of its size; this is the best", file=sys.stderr)
     if best.most_exact is not None and (cost := _cost(best.exact or best, best.most_exact)):
         print(cost, file=sys.stderr)
     if best.exact is not None:

@@ -17,12 +17,12 @@ _HANDED_ON = ("ratio", "stroke", "swing", "kind", "crank", "place", "count")
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON."""
     target = target_of(options.output, "quick-return.toml", options.count)
-    found = quick_return(
+    answers = quick_return(
         **{name: getattr(options, name) for name in _HANDED_ON},
         name=target.stem,
         source="linkanim quick-return",
     )
-    deliver(found, target, options, _TITLES, _cells, _object)
+    deliver(answers, target, options, _TITLES, _cells, _object)
 
 
 def _cells(one: QuickReturn) -> tuple[str, ...]:

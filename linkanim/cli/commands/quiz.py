@@ -62,12 +62,12 @@ def run(options: Namespace) -> None:
     scenes, title = _scenes(options.scene)
     _refuse_many(scenes, options.count)
     with bar(unit=" questions") as progress:
-        found = questions(scenes, options.count, options.seed, progress)
+        asked = questions(scenes, options.count, options.seed, progress)
     if not targets:
-        print(json_text([_as_object(one) for one in found], indent=2) if options.json else as_text(found))
+        print(json_text([_as_object(one) for one in asked], indent=2) if options.json else as_text(asked))
     for target, printer in targets:
         with bar(unit=" figures") as progress:
-            content = printer(found, title, progress)
+            content = printer(asked, title, progress)
         with replacing(target) as part:
             part.write_bytes(content)
         print(target)
@@ -75,11 +75,11 @@ def run(options: Namespace) -> None:
 
 def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
     """Return questions by the chapter of their scene; for a scene outside the catalogue, by its title."""
-    found: dict[str, list[QuizQuestion]] = {}
+    rounds: dict[str, list[QuizQuestion]] = {}
     for question in asked:
         chapter = chapter_of(question.scene.name)
-        found.setdefault(chapter[:1].upper() + chapter[1:] if chapter else title, []).append(question)
-    return found
+        rounds.setdefault(chapter[:1].upper() + chapter[1:] if chapter else title, []).append(question)
+    return rounds
 
 
 def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
@@ -107,7 +107,12 @@ def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
 
 def _as_object(question: QuizQuestion) -> dict[str, object]:
     answers, slips, _, curves = zip(*question.answers, strict=True)
-    found = {"scene": question.scene.name, "kind": question.kind, "phase": question.phase}
-    found |= {"subject": question.subject, "answers": answers, "right": question.right, "why": question.why}
+    document = {"scene": question.scene.name, "kind": question.kind, "phase": question.phase}
+    document |= {
+        "subject": question.subject,
+        "answers": answers,
+        "right": question.right,
+        "why": question.why,
+    }
     shown = {"curves": curves} if all(curves) else {}
-    return {**found, "slips": slips, **shown, "question": question.text}
+    return {**document, "slips": slips, **shown, "question": question.text}

@@ -175,7 +175,7 @@ def _record_lesson(options: Namespace, preset: Preset) -> None:
     from linkanim.player.lesson import read
     from linkanim.recorder.lessons import record_lesson, record_step
 
-    _refuse_settled(options, "a lesson", ("theme", "material"))
+    _refuse_fixed_options(options, "a lesson", ("theme", "material"))
     for name in ("more", "titles", "max_size", "alt", "photo"):
         if getattr(options, name):
             word = "a further scene" if name == "more" else f"--{name.replace('_', '-')}"
@@ -191,14 +191,14 @@ def _record_lesson(options: Namespace, preset: Preset) -> None:
 
     whole = Path(options.output or usual)
     if not options.each:
-        found = target(whole)
+        output = target(whole)
         with bar(shown=options.progress) as progress:
-            if found.path.suffix.lower() == _DECK:
-                summary = _deck_of(steps, found, how)
+            if output.path.suffix.lower() == _DECK:
+                summary = _deck_of(steps, output, how)
             else:
-                summary = record_lesson(steps, found, **how, progress=progress).summary
+                summary = record_lesson(steps, output, **how, progress=progress).summary
         print(summary, file=sys.stderr)
-        print(found.path)
+        print(output.path)
         return
     targets = [target(whole.with_stem(f"{whole.stem}-{n}")) for n in range(1, len(steps) + 1)]
     for step, one in zip(steps, targets, strict=True):
@@ -277,28 +277,28 @@ def _construction(scene: Scene, options: Namespace) -> dict[str, object]:
 
 def _of_tape(options: Namespace) -> Callable[..., Recording]:
     """Return the function that records a tape; `BadInput` for an option that the tape itself settles."""
-    _refuse_settled(options, "a tape")
+    _refuse_fixed_options(options, "a tape")
     # It imports the player, building and the games, which a scene without a tape does not need.
     from linkanim.recorder.tape_frames import record_tape
 
     return partial(record_tape, options.scene, photo=options.photo)
 
 
-def _refuse_settled(options: Namespace, what: str, free: Collection[str] = ()) -> None:
-    """Refuse an option that a tape or a lesson settles itself."""
+def _refuse_fixed_options(options: Namespace, what: str, free: Collection[str] = ()) -> None:
+    """Refuse an option that a tape or a lesson fixes."""
     usual = parse(["record", options.scene])
     for name in (*_OF_A_SCENE, *TOGGLES):
-        found = getattr(options, name, None)
-        if name not in free and found != getattr(usual, name, None):
-            word = _word(name, found)
+        value = getattr(options, name, None)
+        if name not in free and value != getattr(usual, name, None):
+            word = _word(name, value)
             raise BadInput(f"{word} is for a scene; {what} keeps its own (--size, --fps and --for are free)")
 
 
-def _word(name: str, found: object) -> str:
+def _word(name: str, value: object) -> str:
     """Return the option that gives a field this value."""
     options = TOGGLES[name].options if name in TOGGLES else ()
-    option = next((option.name for option in options if option.step in (None, found)), name)
-    return f"--no-{option}" if found is False and option == name else f"--{option}"
+    option = next((option.name for option in options if option.step in (None, value)), name)
+    return f"--no-{option}" if value is False and option == name else f"--{option}"
 
 
 def record_all(words: list[str]) -> int:

@@ -16,13 +16,13 @@ def run(options: Namespace) -> None:
 
     Only titles are read; for a word the scenes are solved, as their classes are then needed.
     """
-    found, width = _found(options.word), max(map(len, names()))
+    titles, width = _matching(options.word), max(map(len, names()))
     for chapter, members in chapters().items():
-        lines = [f"{name:<{width}}  {found[name]}" for name in members if name in found]
+        lines = [f"{name:<{width}}  {titles[name]}" for name in members if name in titles]
         print("".join(f"{line}\n" for line in (f"# {chapter}", *lines) if lines), end="")
 
 
-def _found(word: str | None) -> Mapping[str, str]:
+def _matching(word: str | None) -> Mapping[str, str]:
     """Return titles by name of scenes whose name, title, chapter or class has the word; all without one."""
     every = titles()
     if word is None:
@@ -34,8 +34,8 @@ def _found(word: str | None) -> Mapping[str, str]:
         texts = (name, every[name], chapter[name], load(name).info.class_name)
         return any(sought in text.casefold() for text in texts)
 
-    found = {name: title for name, title in every.items() if has_it(name)}
-    if not found:
+    matching = {name: title for name, title in every.items() if has_it(name)}
+    if not matching:
         near = meant(word, (*every, *chapters()))
         raise BadInput(f"no scene's title, class or chapter has {shown(word)} in it{near}")
-    return found
+    return matching

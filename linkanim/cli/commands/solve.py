@@ -65,26 +65,26 @@ def input_key(scene: Scene) -> str:
 
 def tree(scene: Scene, motion: Motion) -> Tree:
     """Return every quantity of N poses under its path, in the scene's unit, radians and seconds."""
-    found: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
+    result: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
     for quantity in recorded(scene.linkage):
-        _put(found, quantity.path, _leaf(quantity.read(motion), motion))
-    return found
+        _put(result, quantity.path, _leaf(quantity.read(motion), motion))
+    return result
 
 
-def _put(found: Any, path: Path, leaf: Leaf) -> None:
+def _put(result: Any, path: Path, leaf: Leaf) -> None:
     """Put a leaf at the end of a path, through tables and lists that are made where they are missing."""
     key, *rest = path
     if isinstance(key, int):
-        found.append(leaf)
+        result.append(leaf)
     elif rest:
-        _put(found.setdefault(key, [] if isinstance(rest[0], int) else {}), tuple(rest), leaf)
+        _put(result.setdefault(key, [] if isinstance(rest[0], int) else {}), tuple(rest), leaf)
     else:
-        found[key] = leaf
+        result[key] = leaf
 
 
-def _leaf(found: Any, motion: Motion) -> Leaf:
+def _leaf(value: Any, motion: Motion) -> Leaf:
     """Return a value at every instant (N,), NaN for one that is not known (None)."""
-    leaf, shape = np.asarray(np.nan if found is None else found, np.float64), motion.phase.shape
+    leaf, shape = np.asarray(np.nan if value is None else value, np.float64), motion.phase.shape
     return leaf if leaf.shape == shape else np.broadcast_to(leaf, shape)
 
 
@@ -113,7 +113,7 @@ class RowBlock(NamedTuple):
     """Neighbouring rows: the inputs in degrees, and the tree of results; leaves are arrays (N,)."""
 
     degrees: Leaf
-    found: Tree
+    result: Tree
 
 
 @frozen
@@ -168,41 +168,41 @@ def blocks(
             by: inputs,
             "time": time,
         }
-        found = _continued({**where, **tree(scene, motion)}, last)
-        last = found
-        yield RowBlock(steps.degrees(row, stop), _without(found, shared))
+        whole = _continued({**where, **tree(scene, motion)}, last)
+        last = whole
+        yield RowBlock(steps.degrees(row, stop), _without(whole, shared))
 
 
-def _continued(found: Tree, last: Tree | None) -> Tree:
+def _continued(result: Tree, last: Tree | None) -> Tree:
     """Return rows with angles and directions continuous with the row before, which is their first row."""
     if last is None:
-        return found
-    for part, name, key in _continued_keys(found):
-        known = found[part][name]
+        return result
+    for part, name, key in _continued_keys(result):
+        known = result[part][name]
         turns = np.rint((last[part][name][key][-1] - known[key][0]) / math.tau)
         known[key] = known[key] + math.tau * np.nan_to_num(turns)
-    return found
+    return result
 
 
-def _continued_keys(found: Tree) -> Iterator[tuple[str, str, str]]:
+def _continued_keys(result: Tree) -> Iterator[tuple[str, str, str]]:
     """Yield the places of continuous angles: those of bodies, and the directions of springs and dampers."""
     for part, key in (("bodies", "angle"), ("springs", "direction"), ("dampers", "direction")):
-        yield from ((part, name, key) for name, known in found[part].items() if key in known)
+        yield from ((part, name, key) for name, known in result[part].items() if key in known)
 
 
-def _without(found: Tree, rows: int) -> Tree:
-    return mapped(lambda leaf: leaf[rows:], found)  # type: ignore[no-any-return]
+def _without(result: Tree, rows: int) -> Tree:
+    return mapped(lambda leaf: leaf[rows:], result)  # type: ignore[no-any-return]
 
 
 # What `solve` prints for people: aligned columns, angles in degrees, seven digits.
 
 
-def of_pose(scene: Scene, found: Iterator[Tree], *, per: str = "rad") -> str:
+def of_pose(scene: Scene, results: Iterator[Tree], *, per: str = "rad") -> str:
     """Return one pose as text: the input, then tables of joints, bodies, sliders, springs and dampers.
 
     `per` is the unit of what the input's speed is the rate of.
     """
-    pose = next(found)
+    pose = next(results)
     where = (
         f"{scene.name}: {scene.title}\n"
         f"{_input(scene, pose)}, phase {_degrees(pose['phase'])} deg, "
@@ -228,16 +228,16 @@ def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
     turning = (*TURNING, *coefficients_of(linkage, turning=True))
     sliding = (*TRAVELLING, *coefficients_of(linkage, turning=False))
     for title, key, measures in (("body", "angle", turning), ("slider", "travel", sliding)):
-        found = [[called[name], *_cells(measures, _flat(body))] for name, body in bodies if key in body]
-        yield [[title, *_titles(measures, unit)], *found]
+        rows = [[called[name], *_cells(measures, _flat(body))] for name, body in bodies if key in body]
+        yield [[title, *_titles(measures, unit)], *rows]
     force = slice(3)  # length, rate and force
     struts = (
         (linkage.springs, SPRING[force], pose["springs"]),
         (linkage.dampers, DAMPER[force], pose["dampers"]),
     )
     elements = [
-        [linkage.strut_words(item), *_cells(measures, found[item.name])]
-        for items, measures, found in struts
+        [linkage.strut_words(item), *_cells(measures, rows[item.name])]
+        for items, measures, rows in struts
         for item in items
     ]
     yield [["element", *_titles(SPRING[force], unit)], *elements]
@@ -315,10 +315,10 @@ def _flat(body: Tree) -> Tree:
     return {**body, **dict(zip("12", body["coefficients"], strict=True))}
 
 
-def of_sweep(scene: Scene, found: Iterator[Tree]) -> str:
+def of_sweep(scene: Scene, results: Iterator[Tree]) -> str:
     """Return a row for each input: moving joints, bodies' angles in degrees, sliders' travel."""
     fixed = {joint.name for joint in scene.linkage.joints if isinstance(joint, Pin)}
-    lines = [list(_sweep_cells(row, fixed, scene)) for row in found]
+    lines = [list(_sweep_cells(row, fixed, scene)) for row in results]
     titles = [title for title, _ in lines[0]]
     return columns([titles, *([cell for _, cell in line] for line in lines)])
 
@@ -405,13 +405,13 @@ def run(options: Namespace) -> None:
     if inputs.steps is not None:
         _refuse_many(scene, inputs.steps.rows, shown=not (options.csv or options.json))
     asked = inputs.by == "travel" and options.speed is not None
-    found = _blocks(scene, inputs, speed if inputs.by != "travel" or asked else None, options.acceleration)
+    results = _blocks(scene, inputs, speed if inputs.by != "travel" or asked else None, options.acceleration)
     if inputs.steps is not None and inputs.steps.rows > BLOCK and not _is_printing(options, target):
         from linkanim.cli.progress import along
 
-        found = along(found, " blocks", -(-inputs.steps.rows // BLOCK))
+        results = along(results, " blocks", -(-inputs.steps.rows // BLOCK))
     if options.csv:
-        _write_csv(target, inputs.by, found)
+        _write_csv(target, inputs.by, results)
         return
     key = input_key(scene)
     head: Tree = {
@@ -422,7 +422,7 @@ def run(options: Namespace) -> None:
     }
     head |= {"time": None} if inputs.steps else {}
     head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
-    trees = ({**head, **block.found} for block in found)
+    trees = ({**head, **block.result} for block in results)
     if options.json:
         _print_json(({**one, "coordinate": one[key]} for one in trees), inputs.steps is not None)
     else:
@@ -566,15 +566,15 @@ def _form(block: Tree, told: bytes) -> str:
     return json_text(marked(block)).replace("%", "%%").replace(json_text(_NUMBER), "%s")
 
 
-def _write_csv(target: FilePath | None, by: str, found: Iterator[RowBlock]) -> None:
+def _write_csv(target: FilePath | None, by: str, results: Iterator[RowBlock]) -> None:
     """Write the input in degrees and then every quantity; what has no value is an empty cell."""
     with ExitStack() as stack:
         file: TextIO = sys.stdout
         if target is not None:
             part = stack.enter_context(replacing(target))
             file = stack.enter_context(part.open("w", encoding="utf-8", newline=""))
-        for number, block in enumerate(found):
-            names, columns = zip(*leaves(block.found), strict=True)
+        for number, block in enumerate(results):
+            names, columns = zip(*leaves(block.result), strict=True)
             if number == 0:
                 file.write(csv_head([f"{by}_deg", *names]))
             file.write(csv_rows([block.degrees, *columns]))

@@ -379,10 +379,12 @@ class ChainRoot:
             root = root.with_altitude(Reduced(closing.across, root.q))
         for near_touch in self.near_touches:
             if near_touch.near is not None:
-                root = _beside(near_touch, near_touch.near, closing, (near_touch.distance(state), side), root)
+                root = _root_near(
+                    near_touch, near_touch.near, closing, (near_touch.distance(state), side), root
+                )
         for zero, there in zip(self.zeros, zip(away, others, strict=True), strict=True):
             if zero.near is not None:
-                root = _beside(zero, zero.near, closing, there, root)
+                root = _root_near(zero, zero.near, closing, there, root)
         return root
 
     def side(self, state: InputState) -> Value:
@@ -397,7 +399,7 @@ class ChainRoot:
         return before[-1], [one * other for one, other in zip(before, after[-2::-1], strict=False)]
 
 
-def _beside(
+def _root_near(
     zero: Fitted, near: Near, closing: Closing, there: tuple[SignedDistance, Value], far: SignedRoot
 ) -> SignedRoot:
     """Return the root from its fit next to a zero, else the one from `far` of it.

@@ -62,7 +62,7 @@ class TurningPlace(NamedTuple):
     tangent: Array
 
 
-def limit_beside(system: LinkEquations, y: Array, tangent: Array) -> TurningPlace:
+def next_limit(system: LinkEquations, y: Array, tangent: Array) -> TurningPlace:
     """Return the limit next to a place: F = 0 and J v = 0 with v of length 1, whose input stands still."""
     exact, size = FixedPoint(system), system.size
     v = tangent.copy()
@@ -179,7 +179,7 @@ def limited(system: LinkEquations, circuit: Followed) -> LimitedPath:
     """Return the closed path around the pose that was followed, with the limits next to the pose."""
     y, tangents = _closed(system, circuit)
     offset = y[-1] - y[0]
-    ends = [limit_beside(system, *_between(y, tangents, n)) for n in circuit.limits]
+    ends = [next_limit(system, *_between(y, tangents, n)) for n in circuit.limits]
     (high, stop), (low, back) = (ends[0], circuit.limits[0]), (ends[-1], circuit.limits[-1])
     bottom, top = in_floats(low.y), in_floats(high.y)
     up = PathBranch(
@@ -225,7 +225,7 @@ def _way_to(
     y, tangents = (np.array(part) for part in zip(*(place[:2] for place in places), strict=True))
     if not turned:
         return PathBranch(y, tangents), None
-    limit = limit_beside(system, *_between(y, tangents, len(y) - 1))
+    limit = next_limit(system, *_between(y, tangents, len(y) - 1))
     there = in_floats(limit.y)
     y, tangents = np.vstack([y[:-1], there]), np.vstack([tangents[:-1], limit.tangent])
     beyond = (end - there[-1]) * (1.0 if end > system.start[-1] else -1.0)

@@ -35,7 +35,7 @@ from linkanim.mechanics.angles import (
     two_product,
     two_sum,
 )
-from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, are_inputs, beside, root, sqrt
+from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, are_inputs, recorded_with, root, sqrt
 from linkanim.mechanics.linkage import CrankTriangle
 from linkanim.mechanics.precise import context, cosine, exactly, nearest_sum, sine
 from linkanim.mechanics.program import Array
@@ -184,7 +184,7 @@ def swing_by_phase(
     `span` is the middle of both, and how far they are from it.
     """
     middle, way = span or (middle_of(low, high), half_way(low, high))
-    half, amplitude = sharp_half_angle(phase), beside(way, phase)
+    half, amplitude = sharp_half_angle(phase), recorded_with(way, phase)
     scale = root(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
     half_rate, bend = pace.value * 0.5, pace.rate * 0.5
@@ -347,7 +347,9 @@ class InputPath(ABC):
         """Return the phase of the start."""
 
     @abstractmethod
-    def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
+    def around_start(
+        self, start: float, phases: Array, rows: NDArray[Any]
+    ) -> tuple[Array, NDArray[Any], int]:
         """Return phases around the start, the `rows` (D, N) for these phases, and the start's index."""
 
     @abstractmethod
@@ -436,7 +438,9 @@ class ThereAndBack(InputPath):
         """Return the phase of the start on the way to the far end, at most that of an end."""
         return self.phase_of(start, 0.0)
 
-    def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
+    def around_start(
+        self, start: float, phases: Array, rows: NDArray[Any]
+    ) -> tuple[Array, NDArray[Any], int]:
         """Return the phases of the way to the far end, the `rows` (D, N) for these, and the start's index."""
         up = (phases >= 0) & (phases <= math.pi)
         return phases[up], rows[:, up], int(np.abs(phases[up] - self.home(start)).argmin())
@@ -533,7 +537,9 @@ class Turn(InputPath):
         """Return the phase of the start."""
         return 0.0
 
-    def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
+    def around_start(
+        self, start: float, phases: Array, rows: NDArray[Any]
+    ) -> tuple[Array, NDArray[Any], int]:
         """Return phases continued on both sides of the start, their `rows` (D, N), and the start's index."""
         once, period = (phases >= 0) & (phases < 2 * math.pi * self.periods), 2 * math.pi * self.periods
         one, count = phases[once], int(once.sum())

@@ -497,7 +497,7 @@ class Separations:
         """Whether every dyad closes all along."""
         return not self.fails.any()
 
-    def beside(self, phase: float, name: str, side: int) -> Sum | None:
+    def end_of_gap(self, phase: float, name: str, side: int) -> Sum | None:
         """Return the end, on that side, of a stretch without closure that floats miss; None without one."""
         for extreme in self.exact_extremes(name):
             turns = round((phase - extreme.phase) / (2 * math.pi))
@@ -925,7 +925,9 @@ def _runs_through(assembly: Assembly, apart: Separations) -> bool:
 
 def _open_interval(assembly: Assembly, apart: Separations) -> tuple[Limit, Limit]:
     """Return the ends of the interval around the start, or the widest one where the start is not in one."""
-    phases, failing, home = assembly.path.beside(assembly.linkage.drive.start, apart.phases, apart.fails)
+    phases, failing, home = assembly.path.around_start(
+        assembly.linkage.drive.start, apart.phases, apart.fails
+    )
     is_open = np.asarray(~failing.any(axis=0))
     if not is_open.any():  # cut back for one dyad, nothing is left to another
         raise AssemblyError(NO_RANGE)
@@ -945,7 +947,7 @@ def _open_interval(assembly: Assembly, apart: Separations) -> tuple[Limit, Limit
 
 def open_places(assembly: Assembly, apart: Separations) -> list[float]:
     """Return for each range of the input on which every dyad closes a place of it within."""
-    phases, failing, _ = assembly.path.beside(assembly.linkage.drive.start, apart.phases, apart.fails)
+    phases, failing, _ = assembly.path.around_start(assembly.linkage.drive.start, apart.phases, apart.fails)
     first, last = _runs(np.asarray(~failing.any(axis=0)))
     middles = (phases[first] + phases[last]) / 2
     once = (middles >= 0) & (middles < 2 * math.pi * assembly.path.periods)
@@ -988,7 +990,7 @@ def _limits(
         return np.asarray(apart.margins(phases)[rows, own] >= 0)
 
     ends = ends_of(closes, inside, outside)
-    missed = (apart.beside(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
+    missed = (apart.end_of_gap(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
     starts = (Sum(float(end)) if start is None else start for start, end in zip(missed, ends, strict=True))
     return list(zip(starts, names, strict=True))
 
