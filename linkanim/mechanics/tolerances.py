@@ -64,8 +64,6 @@ NARROWEST = 1e-4
 """The narrowest stretch of a fit, in phase: beside a narrower one the margin itself would have no digits."""
 NARROWEST_AT_A_LIMIT = 1e-12
 """The same at a limit, beside which the margin grows the faster, the nearer another limit lies behind it."""
-SHORT = 0.05
-"""Half the longest stretch, in phase, on which a dyad fails to close that is taken as one place."""
 LAST = 1e-17
 """Share of the first coefficient that a fit's last ones should not exceed."""
 TOLERABLE = 1e-13

@@ -170,23 +170,17 @@ class Near(NamedTuple):
 
 @frozen
 class End:
-    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the distance to it.
-
-    Where the dyad fails to close on a short stretch only, z² is that times half the distance to the other end
-    of the stretch; `stretch` is half its length.
-    """
+    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the distance to it."""
 
     upper: bool
     near: Near | None = None
-    stretch: float = 0.0
 
     def distance(self, state: InputState) -> SignedDistance:
         """Return the signed distance to the limit."""
         assert state.ends is not None
         ends = state.ends
         z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
-        argument = Moving(half.value, half.rate, (z * z).second)
-        return SignedDistance(z * _root(argument, self.stretch) if self.stretch else z, argument)
+        return SignedDistance(z, Moving(half.value, half.rate, (z * z).second))
 
     def chosen(self, distance: SignedDistance, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
@@ -431,9 +425,9 @@ def _root_near(
     )
 
 
-def _root(x: Moving, more: float = 0.0) -> Moving:
-    """Return the root of a moving number plus `more`, with its rates; the sum is positive."""
-    root = sqrt(x.value + more)
+def _root(x: Moving) -> Moving:
+    """Return the root of a moving number above zero, with its rates."""
+    root = sqrt(x.value)
     rate = x.rate * 0.5 / root
     return Moving(root, rate, (x.second * 0.5 - rate * rate) / root)
 

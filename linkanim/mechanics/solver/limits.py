@@ -63,7 +63,6 @@ from linkanim.mechanics.tolerances import (
     OFF,
     ROUNDED_LENGTHS,
     SAME_PLACE,
-    SHORT,
     STANDSTILL,
     TOLERABLE,
     TOUCHING,
@@ -211,12 +210,11 @@ def fitted(assembly: Assembly) -> Assembly:
 
 def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
     with localcontext(context()):
-        zeros = [_with_stretch(exact.assembly, name, zero) for zero in root.zeros]
         near_touches = _exact_near_touches(exact, name, root.near_touches)
         samplers = _samplers(exact, name)
         return replace(
             root,
-            zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in zeros),
+            zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in root.zeros),
             near_touches=tuple(
                 replace(near_touch, near=_near_a_touch(name, near_touch, near_touches, *samplers(near_touch)))
                 for near_touch in near_touches
@@ -256,28 +254,6 @@ def _exact_near_touches(exact: ExactWalk, name: str, near_touches: Sequence[Near
         for near_touch, start in zip(near_touches, starts, strict=True)
     ]
     return [replace(near_touch, place=place) for near_touch, place in zip(near_touches, places, strict=True)]
-
-
-def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
-    """Return a limit with the stretch behind it on which the dyad does not close, where that is short."""
-    path = assembly.path
-    if not isinstance(zero, End) or not isinstance(path, Swing):
-        return zero
-    sampled = _by_way(assembly, path, name, zero)
-    before, here, after = (sampled(nudge).margin for nudge in (-NUDGE, Decimal(0), NUDGE))
-    slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
-    place = -2 * slope / bend
-    if not -Decimal(SHORT) < place < 0:
-        return zero
-    for _ in range(STEPS):
-        low, high = (sampled(place * (1 + nudge)).margin for nudge in (-NUDGE, NUDGE))
-        step = (low + high) / (high - low) * place * NUDGE
-        place -= step
-        if not -2 * Decimal(SHORT) < place < 0:
-            return zero
-        if abs(step) < CONVERGED:
-            return replace(zero, stretch=float(-place))
-    return zero
 
 
 def _near(name: str, zero: Fitted, sampled: Callable[[Decimal], Sample], width: float) -> Near | None:
@@ -393,7 +369,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
 
     def sampled(way: Decimal) -> Sample:
         margin = run(*((way, amplitude - way) if end.upper else (amplitude - way, way)))[0]
-        return Sample(way, (way * (way + Decimal(end.stretch)) if end.stretch else way).sqrt(), margin)
+        return Sample(way, way.sqrt(), margin)
 
     return sampled
 
