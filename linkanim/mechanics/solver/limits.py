@@ -41,7 +41,6 @@ from linkanim.mechanics.solver.closing import (
     Stationary,
     Touch,
     Walk,
-    Zero,
     walk_at,
     walked,
     walking,
