@@ -73,10 +73,10 @@ class Indexing:
 def nearest(colours: Floats, palette: Floats) -> NDArray[np.intp]:
     """Return for each colour (n, 3) the number of the nearest in a palette (m, 3), the first of equals."""
     # |a - b|² without |a|², the same for every b
-    distances: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * _product(colours, palette.T)).argmin(
-        axis=1
-    )
-    return distances
+    products = _product(colours, 2.0 * palette.T)
+    distances = np.subtract((palette**2).sum(axis=1), products, out=products)
+    numbers: NDArray[np.intp] = distances.argmin(axis=1)
+    return numbers
 
 
 def _product(rows: Floats, matrix: Floats) -> Floats:
@@ -85,8 +85,9 @@ def _product(rows: Floats, matrix: Floats) -> Floats:
     A library's product rounds differently for other numbers of rows; a GIF would depend on which pixels were
     looked up together.
     """
-    first, second, third = (rows[:, k : k + 1] * matrix[k] for k in range(3))
-    products: Floats = first + second + third
+    products: Floats = rows[:, :1] * matrix[0]
+    for k in (1, 2):
+        products += rows[:, k : k + 1] * matrix[k]
     return products
 
 
