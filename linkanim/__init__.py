@@ -19,7 +19,8 @@ the order in which they are read:
     explain    a pose worked out by hand: formulas, steps, joints, chapters, documents
     paper      figures, charts and reports
     share      a page that moves in a browser
-    player     the window: keys, state, tapes, the loop
+    player     what is behind the window: keys, the state and its modes, tapes
+    ui         the window on a screen: what is drawn and clicked, devices, the loop
     play       questions about linkages, printed or played, and other games
     workshop   a linkage as flat parts and pins, in layers in which it can turn
     recorder   frames to GIF, MP4 and PNG

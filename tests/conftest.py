@@ -18,8 +18,8 @@ from withstood import MARK, table
 from linkanim import scenes
 from linkanim.picture.command_icons import window_icon
 from linkanim.picture.text import Type
-from linkanim.player import screen
 from linkanim.scenes import Scene, files
+from linkanim.ui import screen
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")

@@ -48,6 +48,7 @@ RANK = {
             ("paper",),
             ("share",),
             ("player",),
+            ("ui",),
             ("play",),
             ("workshop",),
             ("recorder",),
@@ -82,6 +83,7 @@ THIRD_PARTIES = {
     "paper": {"numpy", "pygame", "fpdf", "fontTools"},  # fpdf2 brings fontTools
     "share": {"numpy"},
     "player": {"numpy", "pygame"},
+    "ui": {"numpy", "pygame"},
     "play": {"numpy"},
     "workshop": {"numpy", "ezdxf", "manifold3d"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg"},

@@ -21,13 +21,13 @@ from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import text
+from linkanim.ui.shown import overlay
 from linkanim.units import LENGTH_UNITS, metre
 
 SCENES = ("press", "excavator", "driven-piston", "scotch-yoke", "crank-rocker")

@@ -1,4 +1,4 @@
-"""The window: keys, the pure state behind it, tapes and the loop.
+"""What is behind the window: keys, the pure state and its modes, tapes, files.
 
 From the ground up; a module imports from those before it only:
 
@@ -9,11 +9,9 @@ From the ground up; a module imports from those before it only:
     helping    a mode that is seen through: the help
     rules      what values actions may have
     commands   the bar of commands, and menus
-    pointing   what is under the mouse, and the words about it
-    shown      the state as an overlay
-    framing    the picture that fits a state, and the change to the next one
-    screen     the display, and what is on it
-    devices    keyboard, touch, gamepads, mouse
+    framing    what a state's picture is fitted to, and the states that were left
+    sight      what is where in the picture that was drawn last
+    hand       what a mode asks of the hand on the mouse, and of the window
     edits      actions that show another scene; a mode: the list of dimensions
     making     two modes: the steps of a construction; layers in which a scene can be made
     sketching  what the pencil and poses share: answers come, one is kept
@@ -37,6 +35,4 @@ From the ground up; a module imports from those before it only:
     tape_file  a tape as a file
     files      files that the window writes
     background  processes beside the window: a search, a recording
-    desktop    what the desktop asks of every program
-    window     the loop
 """

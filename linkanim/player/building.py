@@ -88,8 +88,8 @@ from linkanim.scenes.editing import dimensions as dimensions_of
 from linkanim.units import shown
 
 if TYPE_CHECKING:
-    from linkanim.player.devices import Gesture, Mouse, Outside
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand, Outside
+    from linkanim.player.sight import Sight
 
 Handler = Callable[[State, Any], State]
 
@@ -765,7 +765,7 @@ def _with(state: State, **changes: Any) -> State:
 # Which things are under the hand, and what the keys and the mouse do there.
 
 
-def thing_under(screen: Screen, x: float, y: float) -> Thing | None:
+def thing_under(screen: Sight, x: float, y: float) -> Thing | None:
     """Return the thing of the draft under a pixel: as it is drawn, or as it is shown while it moves."""
     sheet, state = screen.state.building, screen.state
     assert sheet
@@ -775,7 +775,7 @@ def thing_under(screen: Screen, x: float, y: float) -> Thing | None:
     return gestures.under(sheet.seen(state.scene, state.phase), *place, screen.near)
 
 
-def _begun_at(screen: Screen, x: float, y: float) -> str:
+def _begun_at(screen: Sight, x: float, y: float) -> str:
     """Return what the hand does at a pixel: it draws ("hand"), turns the "crank", or shifts the "paper"."""
     sheet = screen.state.building
     assert sheet
@@ -812,12 +812,12 @@ def _enter(window: Outside, twice: Value) -> Iterator[Action]:
         yield from 2 * click if twice else click if on_paper else click[:1]
 
 
-def _handed(name: str, mouse: Mouse, screen: Screen) -> Action:
+def _handed(name: str, mouse: Hand, screen: Sight) -> Action:
     """Return the hand's action at the mouse; off all things its place is moved to a near line of the grid."""
     return mouse.handed(name, screen, on_grid=thing_under(screen, *mouse.at) is None)
 
 
-def _row_asks(screen: Screen, x: float, y: float) -> Action | None:
+def _row_asks(screen: Sight, x: float, y: float) -> Action | None:
     """Return the action of a click on a list of the sheet: another meaning or number; None off it."""
     for kind in ("offers", "numbers"):
         target = screen.target_at(kind, x, y)
@@ -832,7 +832,7 @@ def _row_asks(screen: Screen, x: float, y: float) -> Action | None:
     return None
 
 
-def _motor(gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+def _motor(gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
     """Return the actions of a motor that is dragged from its tool: on the tool, it is the chosen thing's."""
     if gesture.kind != "up":
         return ()
@@ -1041,13 +1041,13 @@ class OpenSheet(Mode):
             paused=False,
         )
 
-    def menu(self, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+    def menu(self, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Choose what a right click is on, and list its commands; else list all."""
         chosen = sheet_of(screen.state).tool in ("bar", "move") and thing_under(screen, *mouse.at)
         click = (_handed("hand_down", mouse, screen), Action("hand_up"), Action("menu", "chosen"))
         return click if chosen else (Action("menu"),)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Draw, take a tool, turn the crank, or shift the paper; None where the mouse acts as usual."""
         if gesture.kind == "down" and screen.charted(*mouse.at) is None:
             tool, row = screen.number_at("tool", *mouse.at), _row_asks(screen, *mouse.at)
@@ -1126,11 +1126,11 @@ class SheetNumbers(Dimensions):
         lines = () if sheet.rowed else tuple(measured(state, items))
         return replace(over, listed=panel_of(state, items, lit=_has_row(state, items)), measured=lines)
 
-    def menu(self, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+    def menu(self, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Choose what a right click is on, and list its commands; else list all."""
         return OpenSheet().menu(mouse, screen)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Act on the list where the mouse is on it, else on the sheet."""
         actions = self.on_list(gesture, mouse, screen) if mouse.drag in (None, "row") else None
         return OpenSheet().mouse(gesture, mouse, screen) if actions is None else actions

@@ -68,8 +68,8 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import metre, significant, typeset
 
 if TYPE_CHECKING:
-    from linkanim.player.devices import Gesture, Mouse, Outside
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand, Outside
+    from linkanim.player.sight import Sight
 
 # Actions that show another scene: from the shelf, or the other closure; the open list of quantities.
 
@@ -677,7 +677,7 @@ class Dimensions(Mode):
         lines = tuple(measured(state, items))
         return replace(over, listed=panel_of(state, items, lit=True), tools=tools, measured=lines)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Take a tool, or act on the list; None where the mouse acts as usual."""
         is_down = gesture.kind == "down" and mouse.drag is None
         tool = screen.number_at("tool", *mouse.at) if is_down else None
@@ -686,7 +686,7 @@ class Dimensions(Mode):
             return (Action(TOOLS[tool].action, TOOLS[tool].value),)
         return self.on_list(gesture, mouse, screen)
 
-    def on_list(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def on_list(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Return the actions on the list of a click, the wheel or a dragged value; None off it."""
         if mouse.drag == "row" and gesture.kind in ("move", "up"):
             return self._pulled(gesture, mouse, screen)
@@ -706,7 +706,7 @@ class Dimensions(Mode):
         mouse.drag, mouse.steps = "row", 0
         return (Action("grab_row", row),)
 
-    def _pulled(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+    def _pulled(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Return the change of the held row's value, by how far the mouse has moved to the right."""
         if gesture.kind == "up":
             mouse.drag = None

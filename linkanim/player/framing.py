@@ -1,27 +1,18 @@
-"""Framed a picture to a state, and go from one picture to the next: views and lists move, pictures fade."""
+"""What the picture of a state is fitted to, and the states that were left for it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from itertools import pairwise
-
-import pygame
 
 from linkanim.frozen import NamedTuple
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
-from linkanim.picture.picture import Picture
-from linkanim.picture.view import Box, on_the_way, view_on_the_way
-from linkanim.player.shown import lasting
+from linkanim.picture.view import Box
 from linkanim.player.state import MOVE_FRAMES, Departure, Glide, Sketch, State
 from linkanim.scenes.scene import Scene
 
 # What a state's picture is fitted to. Where that changes, the state that is left is kept for a while.
-
-_PICTURES = 4
-"""The pictures that are kept: of a state, and of those that were left just before."""
 
 
 class Framed(NamedTuple):
@@ -119,7 +110,7 @@ def departed(before: State, state: State) -> State:
         departures = (*departures, Departure(_bare(before), since=state.frame, frames=frames))
     if fades:
         departures = tuple(one for one in departures if not one.fades)
-        departures = (*departures, Departure(_bare(before, _moves(before)), True, since=state.frame))
+        departures = (*departures, Departure(_bare(before, moves_of(before)), True, since=state.frame))
     departures = () if state.reduced_motion else departures
     return state if departures == state.departures else replace(state, departures=departures)
 
@@ -143,78 +134,6 @@ def _is_seen_as_one(before: State, state: State) -> bool:
     return same or state.sketch is not None
 
 
-class Framing:
-    """Makes the pictures of states, which depend on these and the size alone, and keeps the last few."""
-
-    def __init__(self, *, window: bool = False) -> None:
-        self._window = window
-        self._made: list[tuple[tuple[Framed, tuple[int, int]], Picture]] = []
-
-    def fitting(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture that fits the state, as it is when all has come to rest."""
-        fit = framed(state, window=self._window)
-        known = next((one for one in self._made if one[0] == (fit, size)), None)
-        if known is None:
-            scene, look, docked, placed, sheet, also = fit
-            picture = Picture(scene, size, look, placed=placed, docked=docked, sheet=sheet, also=also)
-            known = (fit, size), picture
-        others = [one for one in self._made if one is not known]
-        self._made = [*others[1 - _PICTURES :], known]
-        return known[1]
-
-    def at(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture of this frame: while the view moves, one on the way to the fitting picture."""
-        goal = self.fitting(state, size)
-        moves = _moves(state)
-        if not moves:
-            return goal
-        pictures = [*(self.fitting(one.left, size) for one in moves), goal]
-        rests = [1.0 - one.share(state.frame) for one in moves]
-        view = view_on_the_way([one.view for one in pictures], rests)
-        steps = zip(pairwise(one.edge for one in pictures), rests, strict=True)
-        ways = [(rest * max(x - x1, 0.0), rest * max(y - y1, 0.0)) for ((x, y), (x1, y1)), rest in steps]
-        aside = sum(right for right, _ in ways), sum(down for _, down in ways)
-        if view == goal.view and aside == (0.0, 0.0):
-            return goal
-        scene, look, docked, placed, sheet, also = framed(state, window=self._window)
-        return Picture(
-            scene, size, look, view=view, aside=aside, placed=placed, docked=docked, sheet=sheet, also=also
-        )
-
-
-def _moves(state: State) -> list[Departure]:
+def moves_of(state: State) -> list[Departure]:
     """Return the states from which views and lists move on."""
     return [one for one in state.departures if not one.fades]
-
-
-def drawn_in(over: Overlay, state: State) -> Overlay:
-    """Return the overlay to draw: a list that opens or shuts is in part beyond the window's edge."""
-    moves = _moves(state)
-    if not moves:
-        return over
-    listed = [float(one.listed) for one in (*(move.left for move in moves), state)]
-    open_ = on_the_way(listed, [1.0 - one.share(state.frame) for one in moves])
-    if state.listed or not any(listed):
-        return replace(over, shut=1.0 - open_) if state.listed else over
-    last = lasting(next(one.left for one in reversed(moves) if one.left.listed))
-    return replace(over, listed=last.listed, shut=1.0 - open_)
-
-
-# From one picture to the next: the old one fades while the new one is already there; the shutter's flash.
-
-_WHITE = 0.7
-"""The opacity of a screenshot's white flash at its brightest."""
-
-
-def fading(state: State) -> tuple[State, int] | None:
-    """Return the state whose picture fades, and its opacity, 0 to 255; None where none does."""
-    departure = next((one for one in state.departures if one.fades), None)
-    return (departure.left, round(255 * (1.0 - departure.share(state.frame)))) if departure else None
-
-
-def flash(surface: pygame.Surface, eighths: int) -> None:
-    """Draw the shutter's white over a picture, in eighths."""
-    white = pygame.Surface(surface.get_size())
-    white.fill((255, 255, 255))
-    white.set_alpha(round(255 * _WHITE * (eighths / 8) ** 2))
-    surface.blit(white, (0, 0))

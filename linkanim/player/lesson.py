@@ -36,7 +36,7 @@ from linkanim.scenes.toml import content, parse
 from linkanim.units import angle, length, shown, significant
 
 if TYPE_CHECKING:
-    from linkanim.player.devices import Outside
+    from linkanim.player.hand import Outside
 
 LESSON_FILE = Intake("a lesson", most_bytes=1_000_000, most_values=100_000)
 MOST_STEPS = 200

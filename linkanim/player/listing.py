@@ -24,8 +24,8 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits, significant
 
 if TYPE_CHECKING:
-    from linkanim.player.devices import Gesture, Mouse, Outside
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand, Outside
+    from linkanim.player.sight import Sight
 
 _LONGEST = 40
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
@@ -221,7 +221,7 @@ class Listing(Mode):
         title, hint = ("Another chart below", _OTHERS_HINT) if self.adds else ("Quantities", _HINT)
         return Quantities(rows, self.chosen, self.typed, hint, title=title, boxes=boxes)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Return the actions on the list of a click, the wheel or its scroll bar; None off it."""
         if (further := self._scrolled(gesture, mouse, screen)) is not None:
             return further
@@ -234,7 +234,7 @@ class Listing(Mode):
             return ()
         return (Action("tick" if screen.on_box(mouse.at[0]) else "pick", row),)
 
-    def _scrolled(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def _scrolled(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Return the actions of a gesture on the scroll bar; None off it."""
         held = mouse.drag == "scroll"
         if held and gesture.kind == "up":

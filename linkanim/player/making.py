@@ -39,8 +39,8 @@ from linkanim.units import significant
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
     from linkanim.picture.figure import DrawSetting
-    from linkanim.player.devices import Gesture, Mouse
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand
+    from linkanim.player.sight import Sight
 
 _MADE = Intake("the layers of a linkage", most_bytes=10_000_000, most_values=1_000_000)
 _WHERE, _DAMAGED = "the layers", "are damaged, or not what linkanim make prints"
@@ -351,7 +351,7 @@ class Layering(Mode):
 
             yield in_layers(setting, pose, self.parts, self.lifted / LIFTED)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Shift the parts, which have no crank pin to drag; None where the mouse acts as usual."""
         del screen
         if gesture.kind != "down":

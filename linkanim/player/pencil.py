@@ -58,8 +58,8 @@ from linkanim.units import significant
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
     from linkanim.picture.figure import DrawSetting
-    from linkanim.player.devices import Drag, Gesture, Mouse
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Drag, Gesture, Hand
+    from linkanim.player.sight import Sight
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
 
@@ -292,7 +292,7 @@ def _off(sketch: PathSketch) -> str | None:
     return _figures(answer).replace("%", "% off", 1)
 
 
-def cognate_at(screen: Screen, x: float, y: float, reach: float) -> int | None:
+def cognate_at(screen: Sight, x: float, y: float, reach: float) -> int | None:
     """Return the place of the cognate under a pixel among those that are drawn; None elsewhere."""
     sketch = screen.state.of(Pencil)
     numbers = sketch.cognate_numbers if sketch else ()
@@ -411,7 +411,7 @@ class Pencil(Sketching, PathSketch):
         chosen = self.chosen if self.dialled is None else -1
         return replace(row_of(state, self, words), names=names, chosen=chosen, dial=dial)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Draw, or drag what is under the pencil; None where the mouse acts as without a pencil."""
         reach = REACH * screen.size[1]
         if gesture.kind == "down" and screen.charted(*mouse.at) is None:
@@ -433,7 +433,7 @@ class Pencil(Sketching, PathSketch):
         taken = () if mouse.under is None else (Action("cognate", mouse.under),)
         return (Action("pen_off"), *taken)
 
-    def begun(self, screen: Screen, x: float, y: float, reach: float) -> Action:
+    def begun(self, screen: Sight, x: float, y: float, reach: float) -> Action:
         """Return the action that the pencil begins at a pixel: it takes an answer, pin or point, or draws."""
         place = screen.number_at("answer", x, y)
         if place is not None:

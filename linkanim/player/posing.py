@@ -63,8 +63,8 @@ from linkanim.units import short, three_digits
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
     from linkanim.picture.figure import DrawSetting
-    from linkanim.player.devices import Gesture, Mouse, Outside
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand, Outside
+    from linkanim.player.sight import Sight
     from linkanim.synthesis.guidance import PoseAnswer
 
 # The theory is imported when a pose is set: the first frame does not wait for it.
@@ -579,7 +579,7 @@ class Posing(Sketching, PoseSketch):
         dial = DialShown(share, "compact", "steep angle", (0.5,))
         return replace(row_of(state, self, words), dial=dial, poses=poses)
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Take an answer, or set down and drag frames and pins; None where the mouse acts as usual."""
         if gesture.kind == "down" and screen.charted(*mouse.at) is None:
             place = screen.number_at("answer", *mouse.at)

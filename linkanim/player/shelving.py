@@ -25,8 +25,8 @@ from linkanim.player.state import STILL, Mode, Resolver, Rule, State
 
 if TYPE_CHECKING:
     from linkanim.picture.shelf import Grid
-    from linkanim.player.devices import Gesture, Mouse, Outside
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand, Outside
+    from linkanim.player.sight import Sight
 
 _LONGEST = 40
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
@@ -210,7 +210,7 @@ class OpenShelf(Browsing, Mode):
         open_for, still = state.frame - self.since, state.clock.paused
         return replace(over, shelf=Shelf(self, open_for, state.look.theme, still, state.edited))
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...]:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Choose the mechanism under the mouse; a click shows it, and a click elsewhere closes the shelf.
 
         A drag scrolls: on the pictures these follow the hand, beside them the scroll bar does.

@@ -43,8 +43,8 @@ from linkanim.player.state import (
 from linkanim.units import significant, typeset
 
 if TYPE_CHECKING:
-    from linkanim.player.devices import Gesture, Mouse, Outside
-    from linkanim.player.screen import Screen
+    from linkanim.player.hand import Gesture, Hand, Outside
+    from linkanim.player.sight import Sight
 
 SIZES: tuple[tuple[int, int] | None, ...] = (None, (800, 450), (1280, 720), (1920, 1080), (3840, 2160))
 """The sizes of recordings to choose from; None for the window's shape."""
@@ -305,7 +305,7 @@ class TakeDialog(Mode):
         panel = Panel(shown, "Record and save", facts, error=self.refusal or None, hint=_HINT, counted=False)
         return replace(over, listed=panel, tools=over.tools if state.building else None, spots=(), handles=())
 
-    def mouse(self, gesture: Gesture, mouse: Mouse, screen: Screen) -> tuple[Action, ...] | None:
+    def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""
         number = screen.row_at(*mouse.at) if mouse.drag is None else None
         if number is None or gesture.kind not in ("wheel", "down"):

@@ -17,8 +17,6 @@ from linkanim.picture.shelf import RowPrinter
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.play.games import game_of
 from linkanim.player import tape_file
-from linkanim.player.framing import Framing
-from linkanim.player.shown import recorded
 from linkanim.recorder.plan import SIDES, Clip, make_plan, refuse_size
 from linkanim.recorder.recording import (
     Progress,
@@ -29,6 +27,8 @@ from linkanim.recorder.recording import (
     theme_colours,
     write,
 )
+from linkanim.ui.pictures import Framing
+from linkanim.ui.shown import recorded
 
 if TYPE_CHECKING:
     from linkanim.player.state import State

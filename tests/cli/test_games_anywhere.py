@@ -15,7 +15,7 @@ def test_f3_leads_to_the_games(line: str, monkeypatch: pytest.MonkeyPatch) -> No
     given: list[dict[str, Any]] = []
     for command in ("new", "play"):
         monkeypatch.setattr(f"linkanim.cli.commands.{command}.play", lambda *_, **more: given.append(more))
-    monkeypatch.setattr("linkanim.player.window.run", lambda *_, **more: given.append(more))
+    monkeypatch.setattr("linkanim.ui.window.run", lambda *_, **more: given.append(more))
     assert main(line.split()) == 0
     (more,) = given
     assert isinstance(more["keeper"], Arcade)

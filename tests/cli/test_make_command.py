@@ -9,7 +9,7 @@ import pytest
 
 from linkanim.cli import main
 from linkanim.cli.command_table import build
-from linkanim.player import window
+from linkanim.ui import window
 from linkanim.workshop import documents, layers
 
 Capture = pytest.CaptureFixture[str]

@@ -16,11 +16,11 @@ from reaction import bounded, press
 from window import dummy, measured, spare
 
 from linkanim.bench.result import this_machine
-from linkanim.player import screen as display
-from linkanim.player.screen import Screen
 from linkanim.player.state import begin
-from linkanim.player.window import Window
 from linkanim.scenes import load
+from linkanim.ui import screen as display
+from linkanim.ui.screen import Screen
+from linkanim.ui.window import Window
 
 SCENES = ("crank-rocker", "press", "jansen", "excavator")
 SIZE = (1280, 720)

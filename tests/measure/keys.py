@@ -13,14 +13,14 @@ from window import dummy, spare
 
 from linkanim.bench.result import this_machine
 from linkanim.export import columns
-from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.keys import Press, bind_of
-from linkanim.player.screen import Screen
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
+from linkanim.ui import screen as display
+from linkanim.ui.screen import Screen
+from linkanim.ui.shown import overlay
 
 KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""

@@ -34,10 +34,10 @@ Its encoder and what else draws are left out.
 WINDOW = """
 import sys
 from linkanim.picture.look import Look
-from linkanim.player import screen as display
+from linkanim.ui import screen as display
 from linkanim.player.actions import advance
-from linkanim.player.screen import Screen
-from linkanim.player.shown import overlay
+from linkanim.ui.screen import Screen
+from linkanim.ui.shown import overlay
 from linkanim.player.state import begin
 from linkanim.scenes import load
 

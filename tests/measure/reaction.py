@@ -16,10 +16,10 @@ import pygame
 from window import dummy, spare
 
 from linkanim.bench.result import this_machine
-from linkanim.player import screen as display
 from linkanim.player.state import begin
-from linkanim.player.window import Window, frames
 from linkanim.scenes import load
+from linkanim.ui import screen as display
+from linkanim.ui.window import Window, frames
 
 KEYS = "ttvvaannllppiijj"
 """Pressed one after the other, so that each shows something and takes it away again."""

@@ -20,13 +20,13 @@ from linkanim.cli import SPARED
 from linkanim.errors import WorkFailed
 from linkanim.export import columns
 from linkanim.picture.look import Look
-from linkanim.player import screen as display
 from linkanim.player.actions import advance
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.screen import Screen
-from linkanim.player.shown import overlay
 from linkanim.player.state import begin
 from linkanim.scenes import load
+from linkanim.ui import screen as display
+from linkanim.ui.screen import Screen
+from linkanim.ui.shown import overlay
 
 SCENE = "press"
 LOOK = Look(vectors=frozenset("va"), chart="C.acceleration", names=2)

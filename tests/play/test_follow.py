@@ -32,15 +32,15 @@ from linkanim.play.follow import (
     tracks,
 )
 from linkanim.play.games import GameWords, game_of
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import Framing
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
 from linkanim.player.tape_file import from_document, to_document
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
+from linkanim.ui import screen
+from linkanim.ui.pictures import Framing
 
 
 def on(words: str) -> State:

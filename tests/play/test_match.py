@@ -21,7 +21,6 @@ from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.match import MatchGame, level_names, level_of, made, shares, trace, worth
-from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import State, begin
@@ -31,6 +30,7 @@ from linkanim.scenes import load
 from linkanim.synthesis.curves import drawn
 from linkanim.synthesis.linkages import FOUR_BAR, Linkage4
 from linkanim.synthesis.path import LARGEST, path
+from linkanim.ui import screen as display
 
 TAPES = Path(__file__).parent / "match_tapes"
 LEVELS = level_names()

@@ -28,14 +28,14 @@ from linkanim.play.question import QuestionId
 from linkanim.play.quiz import next_question
 from linkanim.play.scores import keep
 from linkanim.play.scores import load as load_scores
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
-from linkanim.player.framing import Framing
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, Taping, resumed, starting
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import chapters, load, names
+from linkanim.ui import screen
+from linkanim.ui.pictures import Framing
 
 BEGUN = "predict chapter=four-bars level=1 seed=7"
 FASTEST = "fastest@press@0.2105@velocity"

@@ -14,9 +14,9 @@ from linkanim.play.arcade import Arcade
 from linkanim.play.games import GAMES
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import advance, carried
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape import resumed, starting
+from linkanim.ui.shown import overlay
 
 # What is pressed in games, what begins one, and what belongs to the window beneath.
 PRESSED: dict[str, Callable[[Random], Value]] = {

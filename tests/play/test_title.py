@@ -15,13 +15,13 @@ from linkanim.errors import BadInput
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import GAMES, game_of
 from linkanim.play.menus import EACH, Title
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.state import ATTRACT_AFTER, State, begin
 from linkanim.player.tape import Tape, resumed, starting
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load, names
+from linkanim.ui import screen
 
 
 def titled() -> State:

@@ -9,9 +9,9 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.player import screen
 from linkanim.player.state import begin
 from linkanim.scenes import load
+from linkanim.ui import screen
 
 
 @pytest.fixture

@@ -8,14 +8,14 @@ from typing import Any
 import pygame
 
 from linkanim.picture.view import Rect
-from linkanim.player import screen
 from linkanim.player.commands import Entries
 from linkanim.player.files import SceneFile
 from linkanim.player.listing import Listing
-from linkanim.player.shown import overlay
 from linkanim.player.state import CHIP_FRAMES, MOUSE_FRAMES, OneMode, State
-from linkanim.player.window import GameKeeper, Window
 from linkanim.synthesis.follower import Reply, Request
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
+from linkanim.ui.window import GameKeeper, Window
 
 SIZE = (320, 180)
 SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL

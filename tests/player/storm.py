@@ -23,16 +23,13 @@ from linkanim.cli import main
 from linkanim.export import json_text
 from linkanim.play.arcade import Arcade
 from linkanim.player import background, files
-from linkanim.player import window as window_module
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
-from linkanim.player.devices import code
 from linkanim.player.files import DraftFile, SceneFile
 from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import key_names
 from linkanim.player.state import State, begin
-from linkanim.player.window import Window
 from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
@@ -40,6 +37,9 @@ from linkanim.scenes.toml import text
 from linkanim.synthesis.answers import PathAnswer
 from linkanim.synthesis.follower import FollowPoses, Reply, Request
 from linkanim.synthesis.guidance import PoseAnswer
+from linkanim.ui import window as window_module
+from linkanim.ui.devices import code
+from linkanim.ui.window import Window
 from linkanim.workshop.request import make
 
 SIZES = ((320, 180), (640, 200), (180, 320), (64, 36), (2, 700), (700, 2), (1, 1), (800, 500))

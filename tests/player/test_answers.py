@@ -11,15 +11,15 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.picture.overlay import DimensionLine, Overlay
-from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import fading, flash
-from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import CHIP_FRAMES, MOVE_FRAMES, SHUTTER_FRAMES, State, begin
-from linkanim.player.window import Window
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import closure_name
+from linkanim.ui import screen as display
+from linkanim.ui.pictures import fading, flash
+from linkanim.ui.shown import lasting, overlay
+from linkanim.ui.window import Window
 
 
 def after(state: State, *actions: Action | str) -> State:

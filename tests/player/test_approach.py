@@ -17,17 +17,17 @@ from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.view import View, eased, view_on_the_way
-from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import Framing
-from linkanim.player.screen import Screen
-from linkanim.player.shown import overlay
 from linkanim.player.state import MOVE_FRAMES, SWING_FRAMES, Change, State, begin
 from linkanim.player.tape import Tape
 from linkanim.recorder.encode import Frame
 from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
+from linkanim.ui import screen as display
+from linkanim.ui.pictures import Framing
+from linkanim.ui.screen import Screen
+from linkanim.ui.shown import overlay
 
 A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
 

@@ -14,12 +14,12 @@ import pytest
 from playing import SIZE, Player, fake_start
 
 from linkanim.player import background
-from linkanim.player import screen as display
 from linkanim.player.files import SceneFile
 from linkanim.player.state import State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load
 from linkanim.scenes.toml import save
+from linkanim.ui import screen as display
 
 fault = pytest.mark.withstands("faults survived")
 
@@ -293,7 +293,7 @@ def test_a_changed_file_at_which_the_solver_fails_is_refused_with_a_report(
 
     good = opened.state.scene
     written(here, "crank = 50", "crank = 45")
-    monkeypatch.setattr("linkanim.player.window.renewed", failing)
+    monkeypatch.setattr("linkanim.ui.window.renewed", failing)
     opened.press(pygame.K_F5)
     assert message(opened).startswith("recordings/my-fault-1.json holds what a report".replace("/", os.sep))
     assert opened.state.scene is good

@@ -12,12 +12,13 @@ from playing import CTRL, SHIFT, NoSearch, Player, menu_in
 
 import linkanim
 from linkanim.mechanics.measures import as_complex
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.bands import ToleranceBand
-from linkanim.player.shown import overlay
 from linkanim.player.state import begin
 from linkanim.scenes import load
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 
 
 @pytest.fixture

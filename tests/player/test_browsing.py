@@ -14,16 +14,16 @@ from shown_lists import words_in
 from linkanim.picture.quantities import quantity
 from linkanim.picture.shelf import Grid
 from linkanim.picture.shelf import grid as shelf_grid
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.commands import Entries, ListRow
 from linkanim.player.listing import Listing, listed
 from linkanim.player.shelving import OpenShelf
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import Scene, load, names
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 
 
 def after(state: State, *actions_: Action | str) -> State:

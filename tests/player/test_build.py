@@ -24,7 +24,7 @@ from linkanim.picture.sheet_rows import SheetRows
 from linkanim.picture.tools import ICONS
 from linkanim.picture.view import Rect
 from linkanim.play.arcade import Arcade
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.files import DraftFile
@@ -33,7 +33,6 @@ from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
 from linkanim.player.on_sheet import SheetDrawing
 from linkanim.player.shelving import OpenShelf
-from linkanim.player.shown import recorded
 from linkanim.player.state import TOAST_FRAMES, BuildSheet, Grip, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
@@ -42,6 +41,8 @@ from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions, other_closure
 from linkanim.scenes.toml import parse, save
 from linkanim.synthesis.answers import PathAnswer
+from linkanim.ui import screen
+from linkanim.ui.shown import recorded
 
 WINDOW = (640, 360)
 

@@ -15,9 +15,9 @@ from test_build import WINDOW, Builder
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.groups import group_of
 from linkanim.picture.layout import tool_cells
-from linkanim.player import screen
 from linkanim.player.state import begin
 from linkanim.scenes import load
+from linkanim.ui import screen
 
 Point = tuple[float, float]
 

@@ -14,12 +14,12 @@ from playing import CTRL, SHIFT, Player
 from shown_lists import values_in, words_in
 
 from linkanim.play.games import game_of
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.background import Queue
 from linkanim.player.state import begin
 from linkanim.scenes import load
+from linkanim.ui import screen
 
 MODS = {"Ctrl": CTRL, "Shift": SHIFT}
 NAMED = {"Enter": pygame.K_RETURN, "Down": pygame.K_DOWN, "Tab": pygame.K_TAB, "Space": pygame.K_SPACE}

@@ -11,7 +11,6 @@ from playing import CTRL, Player, menu_in, the
 from published import STEPHENSON
 
 from linkanim.picture.shelf import grid
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.reassembling import OpenClosures
@@ -21,6 +20,7 @@ from linkanim.scenes.closures import closures
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
+from linkanim.ui import screen
 
 
 @pytest.fixture

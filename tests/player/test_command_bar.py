@@ -18,22 +18,23 @@ from linkanim.picture.layout import Docked, layout, with_side
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
-from linkanim.player import screen, taking
+from linkanim.player import taking
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
-from linkanim.player.framing import Framing
 from linkanim.player.keys import GROUPS, commands
 from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
 from linkanim.player.shelving import OpenShelf
-from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import MOUSE_FRAMES, State, begin
 from linkanim.player.taking import TakeDialog
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
+from linkanim.ui import screen
+from linkanim.ui.pictures import Framing
+from linkanim.ui.shown import lasting, overlay
 
 
 def after(state: State, *actions: Action | str) -> State:

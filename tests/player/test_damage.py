@@ -37,13 +37,13 @@ from linkanim.play.scores import load as scores_of
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.building import DRAFT, restored_sheet, stored_text
-from linkanim.player.framing import Framing
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, to_document
 from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
+from linkanim.ui.pictures import Framing
+from linkanim.ui.shown import overlay
 
 FEW, ALL = 30, 500
 

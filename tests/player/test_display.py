@@ -8,7 +8,7 @@ import sys
 import pygame
 import pytest
 
-from linkanim.player import screen
+from linkanim.ui import screen
 
 
 # screens, and the window that suits the first of them: its shape kept, some room left

@@ -15,7 +15,6 @@ from linkanim.mechanics.motion import mechanism
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import Framing
 from linkanim.player.state import State, begin, loss_of_turning
 from linkanim.player.tape import Tape, starting
 from linkanim.scenes import load, names
@@ -24,6 +23,7 @@ from linkanim.scenes.form import Key
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
+from linkanim.ui.pictures import Framing
 
 
 def after(state: State, *actions_: Action | str) -> State:

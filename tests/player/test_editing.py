@@ -11,12 +11,12 @@ from shown_lists import values_in
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.edits import renewed
-from linkanim.player.shown import overlay
 from linkanim.player.state import EVERY, FLASH_FRAMES, MOVE_FRAMES, Changeover, State, begin, chosen, closes
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions, on_the_way
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.ui.shown import overlay
 
 
 def value(state: State, label: str) -> float:

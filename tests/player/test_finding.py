@@ -10,13 +10,14 @@ import pytest
 from playing import CTRL, NoSearch, Player
 
 from linkanim.play.games import game_of
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.finding import Finder
 from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
+from linkanim.ui import screen
 
 
 @pytest.fixture

@@ -12,13 +12,13 @@ import pygame
 import pytest
 from playing import Player
 
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.clock import COAST_FRAMES, FRAMES_PER_SECOND
-from linkanim.player.shown import overlay
 from linkanim.player.state import Grasp, State, begin
 from linkanim.scenes import load
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 
 
 def after(state: State, *actions: Action | str) -> State:

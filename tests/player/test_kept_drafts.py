@@ -23,7 +23,6 @@ from test_sessions import SESSIONS, Session
 
 from linkanim.build.building import Building
 from linkanim.build.draft import Draft
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.building import stored_text
@@ -31,18 +30,19 @@ from linkanim.player.files import DraftFile
 from linkanim.player.state import BuildSheet, begin
 from linkanim.player.tape import Tape
 from linkanim.player.tape_file import write
-from linkanim.player.window import Window
 from linkanim.scenes import load
+from linkanim.ui import screen
+from linkanim.ui.window import Window
 
 PLAYED = """
 import sys
 from pathlib import Path
 from linkanim.player.tape_file import read
-from linkanim.player import screen
-from linkanim.player.framing import Framing
+from linkanim.ui import screen
+from linkanim.ui.pictures import Framing
 from linkanim.player.files import DraftFile
-from linkanim.player.shown import overlay
-from linkanim.player.window import Window
+from linkanim.ui.shown import overlay
+from linkanim.ui.window import Window
 tape, step = read(Path(sys.argv[1])), int(sys.argv[3])
 with screen.opened((160, 90)):
     window = Window(tape.begun, tape, drafts=DraftFile(Path(sys.argv[2])))

@@ -22,7 +22,7 @@ from linkanim.player.keys import (
     help_groups,
 )
 from linkanim.player.modes import KEYS_OF, as_markdown, key_names
-from linkanim.player.window import MEANINGS
+from linkanim.ui.window import MEANINGS
 
 TABLES: dict[str, Table] = {**{name: one.table for name, one in KEYS_OF.items()}, "play": KEYS}
 ROWS = {name: [row for rows in table.values() for row in rows] for name, table in TABLES.items()}

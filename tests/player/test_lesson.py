@@ -17,16 +17,17 @@ from playing import CTRL, SHIFT, NoSearch, Player
 from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.play.games import game_of
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.lesson import Lesson, LessonStep, read
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
 from linkanim.player.tape_file import from_document, to_document
-from linkanim.player.window import Window
 from linkanim.scenes import load
 from linkanim.scenes.toml import content
+from linkanim.ui import screen
+from linkanim.ui.window import Window
 
 PLAIN = '[[step]]\nscene = "press"\n'
 

@@ -16,16 +16,17 @@ import pytest
 from playing import fake_start
 
 from linkanim.errors import BadInput, NoDisplay
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.screen import Connection
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape, starting
 from linkanim.player.tape_file import write
-from linkanim.player.window import Window, frames, run
 from linkanim.scenes import Scene, load
 from linkanim.scenes.toml import save
+from linkanim.ui import screen
+from linkanim.ui.screen import Connection
+from linkanim.ui.window import Window, frames, run
 
 
 class Time:

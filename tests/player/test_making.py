@@ -24,7 +24,7 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.slider import slider_rect
 from linkanim.picture.view import Rect
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.background import Making
@@ -32,13 +32,14 @@ from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.making import LIFTED, Layering
 from linkanim.player.modes import KEYS_OF
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
 from linkanim.scenes import load
 from linkanim.scenes.scene import TimeRatioPurpose
 from linkanim.synthesis.guidance import guide
 from linkanim.synthesis.quick_returns import quick_return
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 from linkanim.workshop.request import make
 
 

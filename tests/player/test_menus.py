@@ -11,7 +11,7 @@ import pytest
 from playing import NoSearch, Player, menu_in, the
 
 from linkanim.play.games import game_of
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_known
 from linkanim.player.commands import ListRow, menu_of
@@ -19,8 +19,9 @@ from linkanim.player.keys import GROUPS, commands
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
-from linkanim.player.window import MEANINGS
 from linkanim.scenes import load, names
+from linkanim.ui import screen
+from linkanim.ui.window import MEANINGS
 
 
 def after(state: State, *actions: Action | str) -> State:

@@ -26,7 +26,7 @@ from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
-from linkanim.player import background, screen, taking
+from linkanim.player import background, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.shelving import OpenShelf
@@ -36,6 +36,7 @@ from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
 from linkanim.synthesis.follower import Follower, Reply, Request
+from linkanim.ui import screen
 
 TAPES = Path(__file__).parent / "tapes"
 SIZE = (1280, 720)

@@ -14,15 +14,15 @@ from shown_lists import values_in
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.groups import group_of
 from linkanim.picture.layout import tool_cells
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.shown import overlay
 from linkanim.player.state import BuildSheet, State, begin
 from linkanim.player.tape import Taping
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 
 WINDOW = (1280, 720)
 

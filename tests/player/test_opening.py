@@ -12,12 +12,12 @@ import pygame
 import pytest
 from playing import CTRL, Player, the
 
-from linkanim.player import screen, window
 from linkanim.player.reassembling import OpenClosures
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import begin
 from linkanim.scenes import load
 from linkanim.scenes.toml import parse
+from linkanim.ui import screen, window
 
 POINTS = {"O": (0.0, 0.0), "A": (10.0, 30.0), "B": (75.0, 62.0), "Q": (90.0, 5.0)}
 LINKS = {"ground": ["O", "Q"], "crank": ["O", "A"], "coupler": ["A", "B"], "rocker": ["B", "Q"]}

@@ -10,10 +10,10 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.player import screen
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
+from linkanim.ui import screen
 
 
 class Pad:

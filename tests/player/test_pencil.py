@@ -16,18 +16,18 @@ from playing import CTRL, SHIFT, NoSearch, Player, the
 from linkanim.picture.cognates import cognate_sides
 from linkanim.picture.view import Rect
 from linkanim.player import background as following
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.background import actions_of, request_of
 from linkanim.player.pencil import Pencil, cognate_at
-from linkanim.player.shown import overlay
 from linkanim.player.state import MOVE_FRAMES, TOAST_FRAMES, PathSketch, State, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
 from linkanim.synthesis.answers import EARLIER, NUMBERS, PathAnswer
 from linkanim.synthesis.follower import Reply
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 
 ROW = (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
 WIDER = (8.0, 9.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)

@@ -18,15 +18,15 @@ from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.panels import words_at_foot
 from linkanim.picture.picture import Picture
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.listing import Listing
-from linkanim.player.pointing import Pointed, PointedThing, hover_text, thing_at
-from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
+from linkanim.ui import screen
+from linkanim.ui.pointing import Pointed, PointedThing, hover_text, thing_at
+from linkanim.ui.shown import lasting, overlay
 
 
 def number(text: str) -> float:

@@ -12,18 +12,19 @@ import pytest
 from playing import CTRL, NoSearch, Player
 
 from linkanim.picture.overlay import AXIS
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.background import actions_of, request_of
 from linkanim.player.posing import free_joints
-from linkanim.player.shown import overlay
 from linkanim.player.state import LARGEST_DIAL, PoseSketch, SetPose, State, begin
 from linkanim.player.tape import Taping, resumed
 from linkanim.scenes import load
 from linkanim.scenes.scene import PosesPurpose
 from linkanim.synthesis.burmester import CentreCurve, Poses
 from linkanim.synthesis.follower import Follower, FollowPoses
+from linkanim.ui import screen
+from linkanim.ui.shown import overlay
 
 REACH, STEP = 2.0, 0.5
 ROWS = ((0.0, 0.0, 0.0), (40.0, 10.0, 0.6), (70.0, -5.0, 1.4), (85.0, -30.0, 1.9), (60.0, -60.0, 2.4))

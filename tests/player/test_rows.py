@@ -10,16 +10,16 @@ import pytest
 from playing import Player, the
 from shown_lists import words_in
 
-from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.listing import Listing
-from linkanim.player.shown import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, starting
 from linkanim.player.tape_file import from_document, to_document
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
+from linkanim.ui import screen as display
+from linkanim.ui.shown import overlay
 
 SIZES = [(320, 180), (640, 360), (1280, 720)]
 

@@ -399,7 +399,7 @@ COUNTED = """
 import sys
 import pygame
 from linkanim.cli import main
-from linkanim.player.window import Window
+from linkanim.ui.window import Window
 tick, seen = Window.tick, []
 
 def counted(window, frames=1):

@@ -14,13 +14,13 @@ from playing import SIZE, Player
 from linkanim import atomic_files
 from linkanim.play.arcade import Arcade
 from linkanim.play.scores import load as scores_of
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.files import DraftFile
 from linkanim.player.state import begin
-from linkanim.player.window import Window
 from linkanim.scenes import load
+from linkanim.ui import screen
+from linkanim.ui.window import Window
 
 # Draws a ground pin further right, keeps the draft and a best score, again and again; then ends as if killed.
 # It waits for the others for as long as it takes: the machine may be busy.

@@ -18,11 +18,11 @@ from playing import Player
 
 import linkanim
 from linkanim.play.games import game_of
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.state import MOVE_FRAMES, begin
 from linkanim.scenes import load
+from linkanim.ui import screen
 
 FOLDER = Path(linkanim.__file__).parent / "manual" / "pictures"
 SIZE = (800, 450)

@@ -23,7 +23,7 @@ import pytest
 from playing import SIZE, NoSearch, Player, fake_start
 
 from linkanim.mechanics.motion import mechanism
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import MOVE_FRAMES, State, begin
@@ -31,6 +31,7 @@ from linkanim.scenes import names
 
 # each time anew, as in a window: `linkanim.scenes.load` of the tests keeps what was worked out for its scenes
 from linkanim.scenes.files import load
+from linkanim.ui import screen
 
 SEED = 20261121
 SOME = names()[::9]

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from storm import SIZES, Storm
 
-from linkanim.player import screen
+from linkanim.ui import screen
 
 
 def blown(events: int, seed: int, here: Path, patch: pytest.MonkeyPatch, *, calm: bool = False) -> Storm:

@@ -11,9 +11,9 @@ import pygame
 import pytest
 from playing import Player
 
-from linkanim.player import desktop, screen
-from linkanim.player.shown import overlay
 from linkanim.player.state import SWING_FRAMES, Changeover
+from linkanim.ui import desktop, screen
+from linkanim.ui.shown import overlay
 
 Pixels = np.ndarray
 

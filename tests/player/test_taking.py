@@ -15,7 +15,7 @@ from shown_lists import values_in
 
 from linkanim.cli import main
 from linkanim.play.games import game_of
-from linkanim.player import background, screen, taking
+from linkanim.player import background, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.state import State, TakeChoice, begin
@@ -23,6 +23,7 @@ from linkanim.player.taking import TakeDialog
 from linkanim.player.tape import Tape
 from linkanim.player.tape_file import read
 from linkanim.scenes import load
+from linkanim.ui import screen
 
 SIZE = (1280, 720)
 

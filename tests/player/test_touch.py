@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 from playing import SIZE, Player
 
-from linkanim.player.devices import Fingers
+from linkanim.ui.devices import Fingers
 
 WIDE, HIGH = SIZE
 

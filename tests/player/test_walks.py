@@ -13,17 +13,18 @@ from shown_lists import words_in
 
 from linkanim.export import json_text
 from linkanim.play.games import game_of
-from linkanim.player import background, screen
+from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.commands import menu_of
-from linkanim.player.devices import code
 from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.synthesis.answers import PathAnswer
+from linkanim.ui import screen
+from linkanim.ui.devices import code
 from linkanim.workshop.request import make
 
 SIZE = (1280, 720)

@@ -19,7 +19,6 @@ from playing import CTRL, SHIFT, SIZE, Player, fake_start, the
 from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.picture.view import Rect
 from linkanim.player import background
-from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
@@ -31,6 +30,7 @@ from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.toml import save
+from linkanim.ui import screen as display
 
 Key = tuple[int, int, str]
 
@@ -379,7 +379,7 @@ def test_a_key_is_carried_out_once(player: Player, monkeypatch: pytest.MonkeyPat
         carried_out.append(action)
         return carried(state, action)
 
-    monkeypatch.setattr("linkanim.player.window.carried", counted)
+    monkeypatch.setattr("linkanim.ui.window.carried", counted)
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
     assert carried_out == [Action("edit"), Action("nudge", 1)]

@@ -30,7 +30,6 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.player import tape_file
 from linkanim.player.action import Action
-from linkanim.player.shown import overlay
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.recorder import gallery, recording, tape_frames
@@ -39,6 +38,7 @@ from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames, record_tape
 from linkanim.scenes import load, names
+from linkanim.ui.shown import overlay
 
 SIZE = (96, 54)
 BARE = Look(hud=False, trace=False)

@@ -24,14 +24,14 @@ from typed_linkages import Document
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.player.tape_file import write
-from linkanim.player.window import Window
 from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
+from linkanim.ui import screen
+from linkanim.ui.window import Window
 
 SECONDS, MEGABYTES = 10.0, 400
 """What each output of a scene may take: processor time, and memory beside what was there before."""

@@ -42,7 +42,7 @@ def run(options: Namespace) -> None:
                 "--preview without a picture's name opens the window; leave out -o and --json there"
             )
         from linkanim.play.arcade import Arcade
-        from linkanim.player.window import run as play
+        from linkanim.ui.window import run as play
 
         play(options.scene, keeper=Arcade(), layers=list(_words(options)))
         return

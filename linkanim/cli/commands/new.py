@@ -8,8 +8,8 @@ from linkanim.atomic_files import kept_as
 from linkanim.picture.look import Look
 from linkanim.picture.photograph import refuse_lacking
 from linkanim.play.arcade import Arcade
-from linkanim.player.window import run as play
 from linkanim.scenes import names
+from linkanim.ui.window import run as play
 
 
 def run(options: Namespace) -> None:

@@ -9,7 +9,7 @@ from linkanim.atomic_files import checked_target, kept_as, write_text
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.play.arcade import Arcade
-from linkanim.player.window import run as play
+from linkanim.ui.window import run as play
 
 
 def run(options: Namespace) -> None:

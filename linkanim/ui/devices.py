@@ -7,24 +7,23 @@ pans or moves the crank, the chart's cursor, a joint or a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from itertools import zip_longest
 from math import dist, isnan, log
-from typing import Literal, Protocol
+from typing import Literal
 
 import pygame
 from pygame.event import Event
 
-from linkanim.frozen import NamedTuple
-from linkanim.picture.overlay import OwnFile
 from linkanim.player.action import Action
 from linkanim.player.commands import line_asks, pressed, slid, slides
+from linkanim.player.hand import Drag, Gesture
 from linkanim.player.keys import Bind, ModeKeys, Press, bind_of
-from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
-from linkanim.player.screen import Screen
-from linkanim.player.state import NEAR_HAND, REACH, STILL, State
+from linkanim.player.state import NEAR_HAND, REACH, STILL
 from linkanim.scenes.editing import phase_towards
+from linkanim.ui.pointing import SPEED_ROWS, Pointed, row_asks
+from linkanim.ui.screen import Screen
 
 # The keyboard: key events become presses, and a held key an action that repeats.
 
@@ -244,25 +243,6 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a drag of a value is for one step, in heights of the window."""
 _COARSE = 10
-Drag = Literal[
-    "pan",
-    "crank",
-    "motor",
-    "chart",
-    "joint",
-    "row",
-    "pen",
-    "lead",
-    "dial",
-    "hand",
-    "paper",
-    "slider",
-    "bar",
-    "speed",
-    "scroll",
-    "shelf",
-    "pace",
-]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
     pygame.MOUSEBUTTONDOWN: "down",
@@ -283,18 +263,6 @@ def latest(events: list[Event]) -> list[Event]:
     """Return the events without moves of the mouse that a later move in the same frame replaces."""
     pairs = zip_longest(events, events[1:])
     return [one for one, then in pairs if then is None or not one.type == then.type == pygame.MOUSEMOTION]
-
-
-class Gesture(NamedTuple):
-    """What the left button or the wheel did: notches away, and how far the mouse moved, in window heights.
-
-    Steps are `coarser` by a factor with Shift.
-    """
-
-    kind: Literal["wheel", "down", "up", "move"]
-    notches: int
-    by: tuple[float, float]
-    coarser: int = 1
 
 
 class Mouse:
@@ -552,25 +520,3 @@ class Mouse:
 def _coarser() -> int:
     """Return the factor on a step: more than 1 with Shift."""
     return _COARSE if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
-
-
-class Outside(Protocol):
-    """What an action may have to know of the window: what is visible, and the current folder."""
-
-    state: State
-    screen: Screen
-
-    def resolved(self, action: Action) -> Iterator[Action]:
-        """Yield an action; one that depends on what is visible or in the folder is resolved first."""
-
-    def scene_files(self) -> tuple[OwnFile, ...]:
-        """Return the scene files in the current folder."""
-
-    def lesson_step(self, further: int) -> Action:
-        """Return the action that shows the lesson's step so many steps further on, or a note."""
-
-    def proposed_targets(self) -> str:
-        """Return the current folder and places in it to write to, one a line."""
-
-    def refused_target(self, file: str) -> str:
-        """Return why nothing can be recorded into a file; else remember its folder, and return nothing."""

@@ -22,27 +22,28 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Hover, OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
-from linkanim.player import files, modes, screen, taking
+from linkanim.player import files, modes, taking
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, end_of_frame, leave
 from linkanim.player.building import leave_sheet, written
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.desktop import reduces_motion
-from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, relative, scene_files
 from linkanim.player.keys import bind_of
 from linkanim.player.lesson import Lesson
 from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
-from linkanim.player.pointing import Pointed, PointedThing
-from linkanim.player.screen import Screen
-from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load, names
 from linkanim.scenes.files import is_lesson, opened, path_of
 from linkanim.scenes.scene import Scene
+from linkanim.ui import screen
+from linkanim.ui.desktop import reduces_motion
+from linkanim.ui.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
+from linkanim.ui.pointing import Pointed, PointedThing
+from linkanim.ui.screen import Screen
+from linkanim.ui.shown import lasting, overlay
 
 if TYPE_CHECKING:
     from linkanim.player.background import Following, Making, Queue

@@ -13,12 +13,12 @@ from linkanim.picture.overlay import (
 )
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
-from linkanim.player.pointing import Pointed, hover_text
 from linkanim.player.state import (
     SHUTTER_FRAMES,
     Changeover,
     State,
 )
+from linkanim.ui.pointing import Pointed, hover_text
 
 if TYPE_CHECKING:
     pass
