@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from math import frexp, pi
+from math import frexp, pi, sin
 
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring
+from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring, holding
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import DOWN, DrawContext, Figure
 from linkanim.picture.layout import Gauge
@@ -279,23 +279,19 @@ class Fitting:
 
 def fittings(context: DrawContext) -> tuple[Fitting, ...]:
     """Return the fittings of all joints that have some, in the joints' order."""
-    return tuple(_fitting(joint, context) for joint in context.figure.linkage.joints if joint.slides)
+    return tuple(one for joint in context.figure.linkage.joints for one in _fitted(joint, context))
 
 
-def _fitting(joint: Joint, context: DrawContext) -> Fitting:
-    """Return what a joint adds by what slides: itself on a line, a pin in its own bar's slot, or both."""
-    first, *across = joint.slides
-    if first.point != joint.name:
-        return _slotted(first, context)
-    if across and across[0].point != joint.name:
-        return _yoke(first, across[0], context)
-    each = [_slider(joint, slide.line, context) for slide in joint.slides]
-    if not across:
-        return each[0]
-    # a block on several lines: all their slots lie under it
-    behind = tuple(part for one in each for part in one.behind)
-    before = sorted((part for one in each for part in one.before), key=lambda part: part.at == joint.name)
-    return Fitting(behind, tuple(before), next((one.guide for one in each if one.guide), None))
+def _fitted(joint: Joint, context: DrawContext) -> Iterator[Fitting]:
+    """Yield what a joint adds by what slides: itself on lines, a pin in its own bar's slot, or both."""
+    own = [slide for slide in joint.slides if slide.point == joint.name]
+    others = [slide for slide in joint.slides if slide.point != joint.name]
+    if own and others:
+        yield _yoke(own[0], others[0], context)
+    elif others:
+        yield _slotted(others[0], context)
+    else:
+        yield from (_slider(joint, slide.line, context) for slide in own)
 
 
 def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, Loop, Loop]]:
@@ -352,8 +348,11 @@ def _slider(joint: Joint, line: Line, context: DrawContext) -> Fitting:
     """
     along, name = complex(directions(-line.angle)), joint.name
     if line.on is not None:
-        guide, slot = _carried_slot(name, line, along, context)
         block = Part(name, *line.on, _block(context, along, 0.62), (name,))
+        bar = _own_slot(name, line, context)
+        if bar:
+            return Fitting(before=(block,), bar=bar)
+        guide, slot = _carried_slot(name, line, along, context)
         return Fitting(behind=(guide,), before=(slot, block))
     bodies = (body for body in context.figure.linkage.bodies if body.slider == name)
     if joint.bars and any(context.figure.scene.style(body.name).outline == "piston" for body in bodies):
@@ -384,6 +383,28 @@ def _cylindered(name: str, far: str, along: complex, context: DrawContext) -> Fi
     layers = tuple(Layer(*shape).placed(0j, out) for shape in shapes)
     block = Part(name, name, name, layers, (name,))
     return Fitting((block,), guide=GuideRails(name, out, aside, (0.0, _HEAD * crown), head=True))
+
+
+_ALONG = 1e-9
+"""By how much, as a share of its length, a bar's joints may lie beside a line that is its own axis."""
+
+
+def _own_slot(name: str, line: Line, context: DrawContext) -> Bar | None:
+    """Return the bar along whose own axis a line runs, with its slot; None where a body carries the line."""
+    assert line.on is not None
+    linkage, places = context.figure.linkage, context.figure.cycle.position
+    carrier = next((body.joints for body in linkage.bodies if {*line.on} <= {*body.joints}), ())
+    n = holding(linkage.rigid_bodies, carrier)
+    if n is None or abs(sin(line.angle)) > _ALONG or line.through != line.on[0]:
+        return None
+    shape = linkage.rigid_bodies[n]
+    start, end = (shape[joint] for joint in line.on)
+    aside = [line.offset, *(((shape[joint] - start) / unit(end - start)).imag for joint in carrier)]
+    if max(map(abs, aside)) > _ALONG * abs(end - start):
+        return None
+    slid = (places[name] - places[line.through]) @ DOWN * np.conj(_facing(line, context))
+    near, far = (context.view.scale * float(way) for way in (np.nanmin(slid.real), np.nanmax(slid.real)))
+    return Bar(line.on, (complex(near), complex(far)), reaches=(name,))
 
 
 def _carried_slot(name: str, line: Line, along: complex, context: DrawContext) -> tuple[Part, Part]:

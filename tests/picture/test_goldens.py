@@ -46,6 +46,8 @@ def _scene(name: str) -> Scene:
         ("press", 1.0, replace(BARE, zoom=3.0, pan=(0.1, 0.6))),
         ("drag-link", 1.0, replace(BARE, background=False)),
         ("inverted", 0.7, BARE),
+        ("oldham", 0.8, BARE),
+        ("double-butterfly", 0.8, DARK),
         ("belt", 0.7, BARE),
     ],
 )
@@ -80,7 +82,7 @@ def test_names_stand_as_in_the_golden_picture(
 
 
 def test_no_golden_is_left_without_its_test() -> None:
-    assert len(list(FOLDER.glob("*.png"))) == 17
+    assert len(list(FOLDER.glob("*.png"))) == 19
 
 
 def _file_name(name: str, look: Look) -> str:

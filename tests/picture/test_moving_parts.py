@@ -14,6 +14,7 @@ from pictures import contrast, pixels
 
 from linkanim.mechanics.linkage import Crank, Damper, Drive, Gear, Linkage, Pin
 from linkanim.mechanics.quantities import indexed
+from linkanim.picture.bodies import body_parts
 from linkanim.picture.figure import DrawContext, Figure, figure
 from linkanim.picture.fit import of_linkage
 from linkanim.picture.fittings import Coil, Damping, coils, dampings, fittings
@@ -512,9 +513,8 @@ def test_a_ring_is_part_of_what_must_be_seen() -> None:
     assert of_linkage(shown, GAUGE).box.right > 80.0
 
 
-# The bar that a coupler carries, straight along it or 10 aside: how far the pin goes is how long its slot is.
-@pytest.mark.parametrize("offset", [0, 10])
-def test_a_carried_slot_is_as_long_as_its_pin_goes_and_has_an_arm_where_it_lies_aside(offset: float) -> None:
+def _carried(offset: float) -> DrawContext:
+    """Return how a linkage is drawn whose coupler carries a line, straight along it or aside."""
     text = f"""
         title = "t"
         [four-bar]
@@ -530,16 +530,45 @@ def test_a_carried_slot_is_as_long_as_its_pin_goes_and_has_an_arm_where_it_lies_
         line = {{ on = ["A", "B"], through = "A", angle = "0 deg", offset = {offset} }}
     """
     shown = figure(scene_from(tomllib.loads(text), name="t", where="t.toml"))
-    bench = DrawContext(shown, View(2.0, 0.0, 0.0), GAUGE, LIGHT)
+    return DrawContext(shown, View(2.0, 0.0, 0.0), GAUGE, LIGHT)
+
+
+def _slid(bench: DrawContext) -> tuple[float, float]:
+    """Return from where to where the pin goes along the coupler, in pixels."""
+    places = bench.figure.cycle.position
+    axis, away = places["B"] - places["A"], places["C"] - places["A"]
+    along = 2.0 * (away * axis).sum(axis=-1) / np.hypot(*axis.T)
+    return along.min(), along.max()
+
+
+def test_a_carried_slot_that_lies_aside_is_as_long_as_its_pin_goes_and_has_an_arm() -> None:
+    bench = _carried(10)
     (fitting,) = (found for found in fittings(bench) if found.before)
     (bar,), (slot, _) = fitting.behind, fitting.before
-    axis = shown.cycle.position["B"] - shown.cycle.position["A"]
-    away = shown.cycle.position["C"] - shown.cycle.position["A"]
-    along = 2.0 * (away * axis).sum(axis=-1) / np.hypot(*axis.T)
+    near, far = _slid(bench)
     wide, edge = 0.5 * GAUGE.bar, np.concatenate(slot.layers[0].loops)
-    assert [edge.real.min(), edge.real.max()] == pytest.approx([along.min() - wide, along.max() + wide])
-    assert [edge.imag.min(), edge.imag.max()] == pytest.approx([-2 * offset - wide, -2 * offset + wide])
-    assert len(bar.layers) == (4 if offset else 2)
+    assert [edge.real.min(), edge.real.max()] == pytest.approx([near - wide, far + wide])
+    assert [edge.imag.min(), edge.imag.max()] == pytest.approx([-20 - wide, -20 + wide])
+    assert len(bar.layers) == 4
+
+
+def test_a_carried_slot_along_a_bar_s_own_axis_is_in_that_bar() -> None:
+    bench = _carried(0)
+    (fitting,) = (found for found in fittings(bench) if found.before)
+    assert not fitting.behind
+    assert fitting.bar
+    assert fitting.bar.ends == ("A", "B")
+    assert fitting.bar.slot == pytest.approx(_slid(bench))
+
+
+def test_a_block_on_two_bars_has_a_slot_in_each_and_their_pivots_are_seen_in_them() -> None:
+    bench = DrawContext(figure(load("oldham")), View(2.0, 0.0, 0.0), GAUGE, LIGHT)
+    bars = [found.bar for found in fittings(bench) if found.bar]
+    assert [bar.ends for bar in bars] == [("O2", "A"), ("O4", "B")]
+    for bar in bars:
+        assert bar.slot == pytest.approx((-60, 60), abs=1e-6)
+    slotted = [part for part in body_parts(bench) if part.reaches == ("M",)]
+    assert [part.joints for part in slotted] == [("O2", "A"), ("O4", "B")]
 
 
 @pytest.mark.parametrize(
