@@ -26,6 +26,7 @@ from linkanim.picture.shapes import arrows, box, disc, hull, lined, stroke
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import mixed
 from linkanim.picture.view import Rect
+from linkanim.words import said
 
 _PANEL, _ACROSS = (300, 240), 3
 """The size of a body's panel in pixels, and how many lie beside each other."""
@@ -42,7 +43,7 @@ def free_bodies_svg(solution: Solution) -> str:
     """
     bodies = panels(solution)
     groups = [group for body in enumerate(bodies) for group in _panel(solution, *body)]
-    drawn = svg(_size(len(bodies)), None, groups, title=f"Free bodies of {solution.title}")
+    drawn = svg(_size(len(bodies)), None, groups, title=said("Free bodies of {title}", title=solution.title))
     return _OF.sub(lambda arrow: f'data-of="{vector_of(arrow[1])}"', drawn)
 
 

@@ -29,6 +29,7 @@ from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
+from linkanim.words import said
 
 _WIDE, _TALL = (520, 380), (400, 480)
 """The figure's size in pixels; printed beside its equations, it has letters of some 7 pt."""
@@ -45,7 +46,7 @@ def polygons_svg(figured: Figured) -> str:
     pen, edge = pen_for(picture.layout, picture.type, picture.theme), 0.02 * figured.size[0]
     whole = Rect(0, 0, *figured.size).inset(edge)
     groups = [one.group(pose) for one in polygons_of(picture.figure, whole, pen, figured.shown_phase)]
-    title = f"Velocity and acceleration polygon of {scene.title}"
+    title = said("Velocity and acceleration polygon of {title}", title=said(scene.title))
     return svg(figured.size, picture.theme.background, groups, title=title)
 
 
@@ -61,7 +62,7 @@ def vectors_svg(solution: Solution) -> str:
     """Return the vector loops as SVG: each vector once, with its name, and its joints with theirs."""
     picture = _picture(solution)
     ground = Group("ground", ground_layers(picture.drawing.setting, _pins(solution, picture)))
-    title = f"Vector loops of {solution.title}"
+    title = said("Vector loops of {title}", title=solution.title)
     drawn = [ground, *_links(solution, picture), *_drawn(solution, picture)]
     return svg(picture.size, picture.theme.background, drawn, title=title, indices=indices_of(solution))
 

@@ -11,6 +11,7 @@ from linkanim.atomic_files import kept_as
 from linkanim.errors import LinkanimError
 from linkanim.play.games import GameWords, game_of
 from linkanim.player.state import Game
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.play.question import QuestionId
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 _AGAIN = 3
 """The most questions of earlier rounds that come again in a round."""
 _SEEDS = 10**6
-GREETING = "move the mouse for tools, H for keys"
+GREETING = to_say("move the mouse for tools, H for keys")
 _SILENT = 45
 """How often it is asked for news before it greets, so that the first pictures do not wait for the file."""
 _MOST_WAITING = 1_000
@@ -98,7 +99,7 @@ class Arcade:
             self._say(keep(self._waiting, self._file, own=self._path is None))
             self._waiting = ()
         except LinkanimError as error:
-            self._say(f"{error}; scores are not kept")
+            self._say(said("{error}; scores are not kept", error=error))
 
     def _say(self, sentence: str | None) -> None:
         """Add a sentence to the news, unless it was the last one."""
@@ -111,7 +112,7 @@ class Arcade:
         if self._silent is not None:
             self._silent = self._silent - 1 or None
             if self._silent is None and not self._scores().greeted:
-                self._news.append(GREETING)
+                self._news.append(said(GREETING))
                 self.keep("greeted=yes")
         news, self._news = self._news, []
         return news

@@ -35,6 +35,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
+from linkanim.words import said, said_as, to_say
 
 # A track: where a ram has to be along the paper that scrolls by, made from the scene's own motion.
 
@@ -169,17 +170,17 @@ _NOTCHES = 12
 _COARSE = 3
 _AHEAD, _BEHIND, _EVERY = 200, 40, 4
 """How much paper is visible ahead of the ram and behind it, and the step of its points, in mm."""
-_WIDTHS = ("wide, slow", "narrower, faster", "narrow, fast")
+_WIDTHS = (to_say("wide, slow"), to_say("narrower, faster"), to_say("narrow, fast"))
 _FIRST = "slider-crank"
 CONTROLS = {
-    "drag the crank pin": "turn it; the first turn starts the count",
-    "← →": "slower, faster (Shift: three steps)",
-    "Space": "stop",
-    "↑ ↓": "another track, before and after a run",
-    "1–3": "wide, narrower, narrow, likewise",
+    to_say("drag the crank pin"): to_say("turn it; the first turn starts the count"),
+    "← →": to_say("slower, faster (Shift: three steps)"),
+    "Space": to_say("stop"),
+    "↑ ↓": to_say("another track, before and after a run"),
+    "1–3": to_say("wide, narrower, narrow, likewise"),
 }
 """What a hand can do, as the manual has it."""
-_HINT = f"drag the crank pin   ← → {CONTROLS['← →'].partition(' (')[0]}   Space stops"
+_HINT = to_say("drag the crank pin   ← → slower, faster   Space stops")
 
 
 @frozen
@@ -312,22 +313,23 @@ class FollowRun(Game):
         """Return the overlay with the paper ahead of the ram, and the score beside it."""
         left = 1.0 - self.outside / _SLACK
         bars = (
-            ScoreBar("between the lines", f"{self.metres:.2f} m", self.passed / (1e3 * LENGTH)),
-            ScoreBar("slack", f"{max(_SLACK - self.outside, 0) / FRAMES_PER_SECOND:.1f} s", left),
+            ScoreBar(said("between the lines"), f"{self.metres:.2f} m", self.passed / (1e3 * LENGTH)),
+            ScoreBar(said("slack"), f"{max(_SLACK - self.outside, 0) / FRAMES_PER_SECOND:.1f} s", left),
         )
-        choices = tuple(Choice(f"{n}", words) for n, words in enumerate(_WIDTHS, 1))
+        choices = tuple(Choice(f"{n}", said(words)) for n, words in enumerate(_WIDTHS, 1))
+        best = said("best {score}", score=f"{self.best / 1e3:.2f} m")
         runs, counts = self.stage in ("counts", "runs"), self.stage == "counts"
         left_to_count = -((self.counted - _COUNTED) // FRAMES_PER_SECOND)
         panel = GamePanel(
-            f"{left_to_count}" if counts else "Follow",
-            scores=(state.scene.title, *([f"best {self.best / 1e3:.2f} m"] * (self.best > 0))),
-            lines=() if runs and not counts else ("Keep the ram between the two lines.",),
+            f"{left_to_count}" if counts else said_as("game", "Follow"),
+            scores=(said(state.scene.title), *([best] if self.best > 0 else [])),
+            lines=() if runs and not counts else (said("Keep the ram between the two lines."),),
             choices=() if runs else choices,
             bars=bars,
             verdict=self._verdict if self.stage == "over" else "",
             well=self.is_whole,
-            lines_after=(state.scene.look_at,) if not runs and state.scene.look_at else (),
-            hint=_HINT if runs else f"{_AGAIN[self.stage]}   ↑ ↓ another track   Esc out",
+            lines_after=(said(state.scene.look_at),) if not runs and state.scene.look_at else (),
+            hint=said(_HINT if runs else _AGAIN[self.stage]),
             large=counts,
             chosen=None if runs else self.level - 1,
         )
@@ -336,9 +338,11 @@ class FollowRun(Game):
     @property
     def _verdict(self) -> str:
         best = self.passed // 1_000 > self.best
-        before = "; the best so far" if best else f"; the best was {self.best / 1e3:.2f} m"
-        end = "to the end of the paper" if self.is_whole else "then its time was up"
-        return f"{self.metres:.2f} m, {end}{before}"
+        end = said("to the end of the paper") if self.is_whole else said("then its time was up")
+        known = {"length": f"{self.metres:.2f} m", "end": end}
+        if best:
+            return said("{length}, {end}; the best so far", **known)
+        return said("{length}, {end}; the best was {best} m", **known, best=f"{self.best / 1e3:.2f}")
 
     def _lane(self, state: State) -> Lane:
         """Return the two lines about the ram, in the shown unit."""
@@ -352,7 +356,10 @@ class FollowRun(Game):
         return Lane(back, forward, middle, track.half_width, self.is_within)
 
 
-_AGAIN = {"ready": "turn the crank: it starts", "over": "Enter again"}
+_AGAIN = {
+    "ready": to_say("turn the crank: it starts   ↑ ↓ another track   Esc out"),
+    "over": to_say("Enter again   ↑ ↓ another track   Esc out"),
+}
 
 
 def read(words: GameWords) -> FollowRun:

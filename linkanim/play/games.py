@@ -20,6 +20,7 @@ from linkanim.player.action import Action
 from linkanim.player.state import Game, State, with_effect
 from linkanim.scenes import chapters, names, titles
 from linkanim.units import shown
+from linkanim.words import said, said_as
 
 # A game's words: its kind, then its parameters, as `predict chapter=four-bars level=2 seed=7`.
 
@@ -121,7 +122,8 @@ def members(chapter: str) -> tuple[str, ...]:
 
 def titled(chapter: str) -> str:
     """Return a chapter's or a scene's name as a heading."""
-    return "All mechanisms" if chapter == ALL else titles().get(chapter, chapter[:1].upper() + chapter[1:])
+    words = said("All mechanisms") if chapter == ALL else said(titles().get(chapter, chapter))
+    return words[:1].upper() + words[1:]
 
 
 # What games share: how they begin one another, and how one of several rows is chosen.
@@ -156,7 +158,9 @@ class Door(NamedTuple):
 
 def choices_of(doors: Iterable[Door]) -> tuple[Choice, ...]:
     """Return the entries of a menu as a panel shows them, numbered."""
-    return tuple(Choice(f"{n}", door.text, below=door.about) for n, door in enumerate(doors, 1))
+    return tuple(
+        Choice(f"{n}", said_as("game", door.text), below=said(door.about)) for n, door in enumerate(doors, 1)
+    )
 
 
 def begun(state: State, kind: str, **fields: object) -> State:

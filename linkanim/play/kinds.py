@@ -14,7 +14,7 @@ from math import degrees, floor, hypot, inf, isfinite, pi, tan, tau
 import numpy as np
 
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.analysis import FourBar, four_bar_of
+from linkanim.mechanics.analysis import SHORTEST, FourBar, four_bar_of
 from linkanim.mechanics.linkage import Body, Slide
 from linkanim.mechanics.measures import as_output, coupler_body, growth, output_body
 from linkanim.mechanics.measures import between as vector_between
@@ -44,6 +44,7 @@ from linkanim.play.question import (
 )
 from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, TimeRatioPurpose
 from linkanim.units import significant, typeset
+from linkanim.words import name_said, row_said, said, said_as, sentences, to_say
 
 # What speeds up, and by what: the acceleration, its Coriolis term, its curve, what a doubled speed does.
 
@@ -52,12 +53,17 @@ _SAMPLES = 72
 """The number of values of a curve."""
 _APART = 0.3
 """Curves that differ by less than this share of their greatest value could be confused."""
-_FACTORS = {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
+_FACTORS = {
+    1: to_say("as large as before"),
+    2: to_say("twice as large"),
+    4: to_say("four times as large"),
+    8: to_say("eight times as large"),
+}
 _GOES_WITH = {
-    1: "a spring's force",
-    2: "a velocity or a damper's force",
-    4: "an acceleration",
-    8: "the power that accelerates a mass",
+    1: to_say("how a spring's force changes"),
+    2: to_say("how a velocity or a damper's force changes"),
+    4: to_say("how an acceleration changes"),
+    8: to_say("how the power that accelerates a mass changes"),
 }
 """Words for how something changes when the speed doubles, by the factor."""
 
@@ -71,18 +77,27 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
         ax, ay = puzzle.pose.acceleration[name]
         gains = isfinite(along) and abs(along) > PLAIN * hypot(ax, ay)
         if gains and puzzle.share(f"{name}.acceleration") > CLEAR:
-            pointing = "the way it moves" if along > 0 else "against its velocity"
+            part = f"{number(along)} {puzzle.scene.length_unit}/s²"
             why = (
-                f"The part of its acceleration along its velocity, {number(along)} "
-                f"{puzzle.scene.length_unit}/s², points {pointing}."
+                said(
+                    "The part of its acceleration along its velocity, {part}, points the way it moves.",
+                    part=part,
+                )
+                if along > 0
+                else said(
+                    "The part of its acceleration along its velocity, {part}, points against its velocity.",
+                    part=part,
+                )
             )
             larger = ax if abs(ax) > abs(ay) else ay
-            slip = "the sign of the acceleration alone, whichever way the point moves"
+            slip = said("the sign of the acceleration alone, whichever way the point moves")
             return puzzle.question(
                 name,
-                f"Does {name} speed up or slow down?",
+                said("Does {name} speed up or slow down?", name=name),
                 *either(
-                    ("it speeds up", "it slows down"), along > 0, slip if (larger > 0) != (along > 0) else ""
+                    (to_say("it speeds up"), to_say("it slows down")),
+                    along > 0,
+                    slip if (larger > 0) != (along > 0) else "",
                 ),
                 why,
                 shows=_BOTH,
@@ -100,14 +115,27 @@ def doubled(puzzle: Puzzle) -> QuizQuestion | None:
     name = puzzle.random.choice(names)
     value = puzzle.value(f"{name}.{kind}")
     unit = f"{puzzle.scene.length_unit}/s{'²' if kind == 'acceleration' else ''}"
-    power = "the square of the speed" if factor == 4 else "the speed itself"
+    change = {"value": number(value), "grown": number(factor * value), "unit": unit}
+    words = _GROWING[kind]
     return _growing(
         puzzle,
         f"{name}.{kind}",
-        f"How large is the {kind} of {name} in the same position?",
+        said(words[0], name=name),
         factor,
-        f"It is proportional to {power}: {number(value)} becomes {number(factor * value)} {unit}.",
+        said(words[1], **change),
     )
+
+
+_GROWING = {
+    "velocity": (
+        to_say("How large is the velocity of {name} in the same position?"),
+        to_say("It is proportional to the speed itself: {value} becomes {grown} {unit}."),
+    ),
+    "acceleration": (
+        to_say("How large is the acceleration of {name} in the same position?"),
+        to_say("It is proportional to the square of the speed: {value} becomes {grown} {unit}."),
+    ),
+}
 
 
 def force(puzzle: Puzzle) -> QuizQuestion | None:
@@ -120,13 +148,23 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
                 clear.append((item, factor, abs(puzzle.value(f"{item.name}.force"))))
     if clear:
         item, factor, value = puzzle.random.choice(clear)
-        why = f"It depends on the length alone, which is the same there: it stays {number(value)} N."
+        why = said(
+            "It depends on the length alone, which is the same there: it stays {value} N.",
+            value=number(value),
+        )
         if factor == 2:
-            why = f"It is proportional to the speed: {number(value)} N becomes {number(factor * value)} N."
+            why = said(
+                "It is proportional to the speed: {value} N becomes {grown} N.",
+                value=number(value),
+                grown=number(factor * value),
+            )
         return _growing(
             puzzle,
             item.name,
-            f"How large is the force of the {known.strut_words(item)} in the same position?",
+            said(
+                "How large is the force of the {strut} in the same position?",
+                strut=known.strut_words(item),
+            ),
             factor,
             why,
             Look(names=1, chart=f"{item.name}.force"),
@@ -138,9 +176,9 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
     return _growing(
         puzzle,
         f"{name}.acceleration",
-        f"How large is the force that accelerates a mass at {name}, in the same position?",
+        said("How large is the force that accelerates a mass at {name}, in the same position?", name=name),
         4,
-        "It is proportional to the acceleration, and so to the square of the speed.",
+        said("It is proportional to the acceleration, and so to the square of the speed."),
     )
 
 
@@ -150,13 +188,9 @@ def _growing(
     """Return a question on what a doubled speed does."""
     return puzzle.question(
         subject,
-        f"The input runs twice as fast. {text}",
-        QuizAnswer(_FACTORS[factor]),
-        [
-            QuizAnswer(words, f"how {_GOES_WITH[one]} changes")
-            for one, words in _FACTORS.items()
-            if one != factor
-        ],
+        sentences(said("The input runs twice as fast."), text),
+        QuizAnswer(said(_FACTORS[factor])),
+        [QuizAnswer(said(words), said(_GOES_WITH[one])) for one, words in _FACTORS.items() if one != factor],
         why,
         shuffled=True,
         shows=shows,
@@ -165,6 +199,14 @@ def _growing(
 
 
 _ORDERS = ("position", "velocity", "acceleration")
+_SLIDING = {
+    "velocity": to_say("Over one period, which curve is the velocity of {name} along its guide?"),
+    "acceleration": to_say("Over one period, which curve is the acceleration of {name} along its guide?"),
+}
+_TURNING = {
+    "velocity": to_say("Over one period, which curve is the angular velocity of {name}?"),
+    "acceleration": to_say("Over one period, which curve is the angular acceleration of {name}?"),
+}
 
 
 def curves(puzzle: Puzzle) -> QuizQuestion | None:
@@ -185,20 +227,25 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
     right = _ORDERS[which]
     answers = [
         QuizAnswer(
-            f"curve {order.index(n) + 1}",
-            f"the {_ORDERS[n]} taken for the {right}" if n != which else "",
+            said("curve {number}", number=order.index(n) + 1),
+            said("the {one} taken for the {other}", one=said(_ORDERS[n]), other=said(right))
+            if n != which
+            else "",
             curve=tuple(round(float(value), 3) for value in part),
         )
         for n, part in enumerate(scaled)
     ]
     token = f"{body.name}.{tokens[which]}"
-    kind, where = ("", " along its guide") if body.slider else ("angular ", "")
     return puzzle.question(
         token,
-        f"Over one period, which curve is the {kind}{right} of {puzzle.name(body)}{where}?",
+        said((_SLIDING if body.slider else _TURNING)[right], name=puzzle.name(body)),
         answers.pop(which),
         answers,
-        f"Where the {_ORDERS[which - 1]} has its extremes, the {right}, its slope, is zero.",
+        said(
+            "Where the {one} has its extremes, the {other}, its slope, is zero.",
+            one=said(_ORDERS[which - 1]),
+            other=said(right),
+        ),
         shows=Look(names=1, chart=token),
     )
 
@@ -229,16 +276,22 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     joint, guide, turns = puzzle.random.choice(sliding)
     why = (
-        f"The guide turns while {joint} slides along it: 2ω × v is not zero."
+        said("The guide turns while {joint} slides along it: 2ω × v is not zero.", joint=joint)
         if turns
-        else "The guide does not turn: ω is zero, and 2ω × v with it."
+        else said("The guide does not turn: ω is zero, and 2ω × v with it.")
     )
-    slip = "the guide's turning overlooked" if turns else "sliding alone taken for a Coriolis term"
+    slip = (
+        said("the guide's turning overlooked") if turns else said("sliding alone taken for a Coriolis term")
+    )
     return puzzle.question(
         joint,
-        f"{joint} slides along {guide}. Seen from that guide, does the acceleration of {joint} have "
-        "a Coriolis term?",
-        *either(("yes", "no"), turns, slip),
+        said(
+            "{joint} slides along {guide}. Seen from that guide, does the acceleration of "
+            "{joint} have a Coriolis term?",
+            joint=joint,
+            guide=guide,
+        ),
+        *either((to_say("yes"), to_say("no")), turns, slip),
         why,
         shows=_BOTH,
         arrows=[joint],
@@ -252,9 +305,9 @@ def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
         if linkage.joint(slide.point).fixed or not _slides(puzzle, slide):
             continue
         if slide.start is None:
-            yield slide.point, "a fixed line", False
+            yield slide.point, said("a fixed line"), False
         elif slide.axis is None:
-            yield slide.point, f"the slot at {slide.start}", False
+            yield slide.point, said("the slot at {start}", start=slide.start), False
         else:
             carriers = puzzle.bodies_of(*slide.axis)
             body = next(
@@ -295,10 +348,10 @@ def pole(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     one, other = puzzle.random.choice(near)
     middle = (origins[one] + origins[other]) / 2
-    tries = [(2 * middle - poles[one, other], "the turn taken the other way round")]
-    tries += [(middle, "the middle between the places, about which it would turn by half a turn")]
+    tries = [(2 * middle - poles[one, other], said("the turn taken the other way round"))]
+    tries += [(middle, said("the middle between the places, about which it would turn by half a turn"))]
     tries += [
-        (poles[pair], f"the pole of poses {pair[0] + 1} and {pair[1] + 1}")
+        (poles[pair], said("the pole of poses {one} and {other}", one=pair[0] + 1, other=pair[1] + 1))
         for pair in near
         if pair != (one, other)
     ]
@@ -313,12 +366,19 @@ def pole(puzzle: Puzzle) -> QuizQuestion | None:
     first, second = (_pose(puzzle, purpose.poses[n]) for n in (one, other))
     return puzzle.question(
         next(body.name for body in puzzle.scene.linkage.bodies if puzzle.scene.trace[0] in body.joints),
-        f"A body is taken from the pose at {first} to that at {second} by one turn: about which point?",
+        said(
+            "A body is taken from the pose at {first} to that at {second} by one turn: about which point?",
+            first=first,
+            second=second,
+        ),
         QuizAnswer(_place(puzzle, poles[one, other])),
         wrong,
-        "The pole lies on the perpendicular bisector of the two places, "
-        f"{number(abs(poles[one, other] - middle))} {puzzle.scene.length_unit} from its middle: half their "
-        "distance times the cotangent of half the turn.",
+        said(
+            "The pole lies on the perpendicular bisector of the two places, {distance} {unit} "
+            "from its middle: half their distance times the cotangent of half the turn.",
+            distance=number(abs(poles[one, other] - middle)),
+            unit=puzzle.scene.length_unit,
+        ),
         shuffled=True,
     )
 
@@ -338,7 +398,9 @@ def _place(puzzle: Puzzle, place: complex) -> str:
 
 def _pose(puzzle: Puzzle, pose: tuple[float, float, float]) -> str:
     x, y, turned = pose
-    return f"{_place(puzzle, complex(x, y))}, turned by {tenths(degrees(turned))},"
+    return said(
+        "{place}, turned by {angle},", place=_place(puzzle, complex(x, y)), angle=tenths(degrees(turned))
+    )
 
 
 def slow_way(puzzle: Puzzle) -> QuizQuestion | None:
@@ -350,18 +412,25 @@ def slow_way(puzzle: Puzzle) -> QuizQuestion | None:
     slow, quick = 360 * ratio / (1 + ratio), 360 / (1 + ratio)
     beyond = slow - 180
     tries = {
-        quick: "the quick stroke taken for the slow one",
-        180 * ratio: "half a turn times the time ratio",
-        180 + beyond / 2: "the angle between the directions of the dead centres halved",
+        quick: said("the quick stroke taken for the slow one"),
+        180 * ratio: said("half a turn times the time ratio"),
+        180 + beyond / 2: said("the angle between the directions of the dead centres halved"),
     }
     wrong = [QuizAnswer(angle(value), slip) for value, slip in tries.items() if value < 360]
     return puzzle.question(
         "input",
-        f"The output's slow stroke takes {number(ratio)} times as long as its quick stroke. "
-        "By how much does the crank turn during the slow one?",
+        said(
+            "The output's slow stroke takes {ratio} times as long as its quick stroke. By how "
+            "much does the crank turn during the slow one?",
+            ratio=number(ratio),
+        ),
         QuizAnswer(angle(slow)),
         wrong,
-        f"Both strokes together are a whole turn, in this ratio: {tenths(slow)} and {tenths(quick)}.",
+        said(
+            "Both strokes together are a whole turn, in this ratio: {slow} and {quick}.",
+            slow=tenths(slow),
+            quick=tenths(quick),
+        ),
         shuffled=True,
     )
 
@@ -377,14 +446,14 @@ def precision_point(puzzle: Puzzle) -> QuizQuestion | None:
     texts = [_at(x) for x in (right, *middles)]
     if len(set(texts)) < len(texts):
         return None
-    slip = "a place between two precision points, where the error is near an extreme"
-    shown = " and ".join([", ".join(map(_at, purpose.x[:-1])), _at(purpose.x[-1])])
+    slip = said("a place between two precision points, where the error is near an extreme")
+    shown = row_said([*map(_at, purpose.x)])
     return puzzle.question(
         "input",
-        f"Made for {purpose.words}: where is the linkage's structural error zero?",
+        said("Made for {function}: where is the linkage's structural error zero?", function=purpose.words),
         QuizAnswer(_at(right)),
         [QuizAnswer(_at(x), slip) for x in middles[: MOST - 1]],
-        f"Its precision points are {shown}; between them the error changes its sign.",
+        said("Its precision points are {shown}; between them the error changes its sign.", shown=shown),
         shuffled=True,
     )
 
@@ -400,7 +469,6 @@ _OBLIQUE = pi / 6
 _NEAR = 0.08
 """Places nearer to each other than this, in sizes of the linkage, could be confused."""
 _ARROWS = Look(names=1, vectors=frozenset({VELOCITY}))
-_BACKWARDS = "when the input runs backwards"
 
 
 def turning(puzzle: Puzzle) -> QuizQuestion | None:
@@ -411,13 +479,17 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
     body = puzzle.random.choice(clear)
     rate = puzzle.value(f"{body.name}.angular_velocity")
     against = puzzle.scene.linkage.drive.coordinate.is_angle and puzzle.pose.coordinate_rate * rate < 0
-    slip = "the input's direction, passed on along the chain" if against else f"the way it turns {_BACKWARDS}"
-    misled = " The input turns the other way: a chain does not hand on directions." if against else ""
+    slip = (
+        said("the input's direction, passed on along the chain")
+        if against
+        else said("the way it turns when the input runs backwards")
+    )
+    misled = said("The input turns the other way: a chain does not hand on directions.") if against else ""
     return puzzle.question(
         body.name,
-        f"Which way does {puzzle.name(body)} turn?",
+        said("Which way does {name} turn?", name=puzzle.name(body)),
         *either(TURNS, rate > 0, slip),
-        f"{_why_turning(puzzle, body, rate)}{misled}",
+        sentences(_why_turning(puzzle, body, rate), misled),
         shows=_ARROWS,
         arrows=body.joints,
     )
@@ -430,11 +502,16 @@ def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
     place, moving = (
         quarter(puzzle.vector(kind, second) - puzzle.vector(kind, first)) for kind in ("position", "velocity")
     )
-    lies = f"{second} lies {SIDES[place]} {first}"
+    lies = said(SIDES[place], name=second, other=first)
     if not is_fixed[first]:
-        lies = f"Seen from {first}, {second} lies {BESIDE[place]}"
-    turns = f"{puzzle.name(body)} turns {TURNS[rate < 0]}, at {number(abs(rate))} rad/s"
-    return f"{lies} and moves {WAYS[moving]}: {turns}."
+        lies = said(BESIDE[place], name=second, other=first)
+    turns = said(
+        "{name} turns {way}, at {rate} rad/s",
+        name=puzzle.name(body),
+        way=said(TURNS[rate < 0]),
+        rate=number(abs(rate)),
+    )
+    return said("{lies} and moves {way}: {turns}.", lies=lies, way=said(WAYS[moving]), turns=turns)
 
 
 def fastest(puzzle: Puzzle) -> QuizQuestion | None:
@@ -450,15 +527,17 @@ def fastest(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     first, *others = sorted(chosen, key=lambda name: -speeds[name])
     unit = puzzle.scene.length_unit
-    listed = ", ".join(f"{name} {number(speeds[name])} {unit}/s" for name in (first, *others))
+    listed = said_as("list", ", ").join(
+        f"{name} {number(speeds[name])} {unit}/s" for name in (first, *others)
+    )
     places = puzzle.pose.position
     slips = dict(_taken_for_fastest(puzzle, chosen))
     return puzzle.question(
         "velocity",
-        "Which of these points moves fastest?",
+        said("Which of these points moves fastest?"),
         QuizAnswer(first, place=places[first]),
         [QuizAnswer(name, slips.get(name, ""), places[name]) for name in others],
-        f"{_why_faster(puzzle, first, others)}The speeds: {listed}.",
+        sentences(_why_faster(puzzle, first, others), said("The speeds: {speeds}.", speeds=listed)),
         shows=_ARROWS,
         arrows=chosen,
     )
@@ -472,8 +551,8 @@ def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, 
         ways = {name: abs(puzzle.apart(pivot, name)) for name in names}
         *_, next_to, far = sorted(names, key=lambda name: ways[name])
         if ways[far] - ways[next_to] > CLEAR * ways[far]:
-            yield far, f"the point farthest from {pivot}, taken for the fastest"
-    yield linkage.drive.joint, "the input taken for the fastest: a chain of links can speed up"
+            yield far, said("the point farthest from {pivot}, taken for the fastest", pivot=pivot)
+    yield linkage.drive.joint, said("the input taken for the fastest: a chain of links can speed up")
 
 
 def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
@@ -484,9 +563,13 @@ def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
         far, close = (abs(puzzle.vector("position", joint) - centre) for joint in (first, name))
         if CLEAR * far < close < inf:
             times = number(round(far / close, 2))
-            return (
-                f"{first} and {name} turn with the same ω about {about}, and {first} is {times} times as far "
-                "from it. "
+            return said(
+                "{first} and {name} turn with the same ω about {about}, and {first} is {times} times "
+                "as far from it.",
+                first=first,
+                name=name,
+                about=about,
+                times=times,
             )
     return ""
 
@@ -507,9 +590,9 @@ def heading(puzzle: Puzzle) -> QuizQuestion | None:
         slips = dict(_taken_for_heading(puzzle, name, correct))
         return puzzle.question(
             name,
-            f"Which way does {name} move?",
-            QuizAnswer(WAYS[correct]),
-            [QuizAnswer(WAYS[n], slips.get(n, "")) for n in possible if n != correct],
+            said("Which way does {name} move?", name=name),
+            QuizAnswer(said(WAYS[correct]), alphabet=WAYS[correct]),
+            [QuizAnswer(said(WAYS[n]), slips.get(n, ""), alphabet=WAYS[n]) for n in possible if n != correct],
             _why_heading(puzzle, name),
             shows=_ARROWS,
             arrows=[name],
@@ -528,25 +611,25 @@ def _taken_for_heading(puzzle: Puzzle, name: str, correct: int) -> Iterator[tupl
     pin = puzzle.pivot_of(name)
     if pin is not None:
         along = quarter(puzzle.apart(pin, name))
-        yield from ((n % 4, "along its link, not across") for n in (along, along + 2))
-    yield (correct + 2) % 4, f"the way it moves {_BACKWARDS}"
+        yield from ((n % 4, said("along its link, not across")) for n in (along, along + 2))
+    yield (correct + 2) % 4, said("the way it moves when the input runs backwards")
     acceleration = puzzle.vector("acceleration", name)
     known = isfinite(abs(acceleration)) and puzzle.share(f"{name}.acceleration") > CLEAR
     if known and obliquity(acceleration) < _OBLIQUE:
-        yield quarter(acceleration), "the acceleration taken for the velocity"
+        yield quarter(acceleration), said("the acceleration taken for the velocity")
 
 
 def _why_heading(puzzle: Puzzle, name: str) -> str:
     """Return why a joint moves as it does: by the bar that pushes it, or by its link's instant centre."""
     velocity = puzzle.vector("velocity", name)
-    moves = f"{WAYS[quarter(velocity)]}, at {number(abs(velocity))} {puzzle.scene.length_unit}/s"
+    speed = f"{number(abs(velocity))} {puzzle.scene.length_unit}/s"
+    moves = said("{way}, at {speed}", way=said(WAYS[quarter(velocity)]), speed=speed)
     joint = puzzle.scene.linkage.joint(name)
     if _is_guided(puzzle, name):
         for end, _ in joint.bars:
             towards = (puzzle.apart(end, name).conjugate() * puzzle.vector("velocity", end)).real
-            pushes = f"towards {name}: it pushes" if towards > 0 else f"away from {name}: it pulls"
-            return f"{end} moves the bar {end}–{name} {pushes} {name} along the guide, {moves}."
-        return f"It slides along its guide, {moves}."
+            return said(_PUSHES if towards > 0 else _PULLS, end=end, name=name, moves=moves)
+        return said("It slides along its guide, {moves}.", moves=moves)
     pin = puzzle.pivot_of(name)
     centres = (
         [(puzzle.vector("position", pin), pin)] if pin else map(puzzle.centre_of, puzzle.bodies_of(name))
@@ -554,14 +637,34 @@ def _why_heading(puzzle: Puzzle, name: str) -> str:
     for centre, about in centres:
         arm = puzzle.vector("position", name) - centre
         if 0 < abs(arm) < inf:
-            turns = TURNS[(arm.conjugate() * velocity).imag < 0]
-            return f"It turns {turns} about {about} and lies {SIDES[quarter(arm)]} it: so it moves {moves}."
+            turns = said(TURNS[(arm.conjugate() * velocity).imag < 0])
+            return said(_LIES[quarter(arm)], turns=turns, about=about, moves=moves)
     carried = next((puzzle.name(body) for body in puzzle.bodies_of(name)), "")
     if carried:
-        return f"At this instant {carried} does not turn: all its points move alike, {name} {moves}."
-    bars = " and ".join(f"{end}–{name}" for end, _ in joint.bars)
-    keeps = f"Only this keeps the lengths of the bars {bars}: " if bars else "It is carried along: "
-    return f"{keeps}{name} moves {moves}."
+        return said(
+            "At this instant {carried} does not turn: all its points move alike, {name} {moves}.",
+            carried=carried,
+            name=name,
+            moves=moves,
+        )
+    if bars := row_said([f"{end}–{name}" for end, _ in joint.bars]):
+        known = {"bars": bars, "name": name, "moves": moves}
+        return said("Only this keeps the lengths of the bars {bars}: {name} moves {moves}.", **known)
+    return said("It is carried along: {name} moves {moves}.", name=name, moves=moves)
+
+
+_PUSHES = to_say(
+    "{end} moves the bar {end}–{name} towards {name}: it pushes {name} along the guide, {moves}."
+)
+_PULLS = to_say(
+    "{end} moves the bar {end}–{name} away from {name}: it pulls {name} along the guide, {moves}."
+)
+_LIES = (
+    to_say("It turns {turns} about {about} and lies to the right of it: so it moves {moves}."),
+    to_say("It turns {turns} about {about} and lies above it: so it moves {moves}."),
+    to_say("It turns {turns} about {about} and lies to the left of it: so it moves {moves}."),
+    to_say("It turns {turns} about {about} and lies below it: so it moves {moves}."),
+)
 
 
 def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
@@ -580,8 +683,8 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     if len(points) < 3:
         return None
     slips = {place: _taken_for_pole(puzzle, name) for place, name in places.items()}
-    slips[half] = "the middle of the link taken for the pole"
-    slips[min(ends, key=lambda end: abs(end - centre))] = "the nearer joint taken for the pole"
+    slips[half] = said("the middle of the link taken for the pole")
+    slips[min(ends, key=lambda end: abs(end - centre))] = said("the nearer joint taken for the pole")
     slips[centre] = ""
     unit = puzzle.scene.length_unit
     right, *wrong = (
@@ -594,7 +697,7 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     )
     return puzzle.question(
         body.name,
-        f"Where is the instant centre of {puzzle.name(body)}?",
+        said("Where is the instant centre of {name}?", name=puzzle.name(body)),
         right,
         wrong,
         _why_pole(puzzle, body, centre),
@@ -609,17 +712,27 @@ def _why_pole(puzzle: Puzzle, body: Body, centre: complex) -> str:
     """Return why a body's instant centre is there, by the velocities of its first two joints."""
     one, other = body.joints[:2]
     arms = [puzzle.vector("position", name) - centre for name in (one, other)]
-    still = f"the point of {puzzle.name(body)} there is at rest at this instant."
+    still = said("the point of {name} there is at rest at this instant.", name=puzzle.name(body))
     if abs((arms[0].conjugate() * arms[1]).imag) > CLEAR * abs(arms[0] * arms[1]):
-        return f"The normals to the velocities of {one} and {other} meet there: {still}"
-    return f"Along the line through {one} and {other} the velocities fall to zero there: {still}"
+        return said(
+            "The normals to the velocities of {one} and {other} meet there: {still}",
+            one=one,
+            other=other,
+            still=still,
+        )
+    return said(
+        "Along the line through {one} and {other} the velocities fall to zero there: {still}",
+        one=one,
+        other=other,
+        still=still,
+    )
 
 
 def _taken_for_pole(puzzle: Puzzle, name: str) -> str:
     """Return in words how a joint is wrongly taken for the pole of a moving link."""
     if puzzle.scene.linkage.joint(name).fixed:
-        return "a fixed pin, about which another link turns"
-    return "a joint that moves, taken for the pole" if puzzle.share(f"{name}.velocity") > CLEAR else ""
+        return said("a fixed pin, about which another link turns")
+    return said("a joint that moves, taken for the pole") if puzzle.share(f"{name}.velocity") > CLEAR else ""
 
 
 def _apart(points: Iterable[complex], least: float) -> list[complex]:
@@ -637,7 +750,7 @@ _ANSWERS_APART = 20.0
 """Crank angles farther apart than this, in degrees, cannot be confused."""
 _SWINGS_APART = 5.0
 """Ends of swings farther apart than this, in degrees, cannot be confused."""
-_FULL = "it turns fully"
+_FULL = to_say("it turns fully")
 _IN_LINE = 1e-6
 """Two bars are in one line where the sine of the angle between them is below this."""
 Swing = tuple[float, float]
@@ -653,8 +766,8 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
     right = puzzle.random.choice([*exact])
     rates = puzzle.values(_rate_of(body))
     fast = crank_degrees(puzzle, float(puzzle.cycle.phase[int(abs(rates).argmax())]))
-    slips = {(one + 180) % 360: "the other dead centre, taken to lie half a turn on" for one in exact}
-    slips[fast] = "the greatest speed taken for the dead centre"
+    slips = {(one + 180) % 360: said("the other dead centre, taken to lie half a turn on") for one in exact}
+    slips[fast] = said("the greatest speed taken for the dead centre")
     wrong: list[float] = []
     for one in (fast, *slips, *(puzzle.random.uniform(0, 360) for _ in range(20))):
         if all(between(one, other) > _ANSWERS_APART for other in (*exact, *wrong)) and len(wrong) < MOST - 1:
@@ -663,10 +776,14 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     return puzzle.question(
         body.name,
-        f"At which crank angle does {puzzle.name(body)} turn back?",
+        said("At which crank angle does {name} turn back?", name=puzzle.name(body)),
         QuizAnswer(angle(right)),
         [QuizAnswer(angle(one), slips.get(one, "")) for one in wrong],
-        f"Its velocity changes its sign at {' and '.join(map(angle, exact))}{_in_line(puzzle, body, exact)}.",
+        said(
+            "Its velocity changes its sign at {angles}{in_line}.",
+            angles=row_said([*map(angle, exact)]),
+            in_line=_in_line(puzzle, body, exact),
+        ),
         shuffled=True,
         shows=Look(names=1, chart=_rate_of(body)),
         stops=exact[right],
@@ -706,7 +823,9 @@ def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:
             ways = [[complex(*pose[joint]) for joint in (pivot, pin, name)] for pose in poses]
             turns = [(c - b) * (b - a).conjugate() for a, b, c in ways]
             if all(abs(turn.imag) < _IN_LINE * abs(turn) for turn in turns):
-                return f": there {pivot}–{pin} and {pin}–{name} lie in one line"
+                return said(
+                    ": there {pivot}–{pin} and {pin}–{name} lie in one line", pivot=pivot, pin=pin, name=name
+                )
     return ""
 
 
@@ -716,7 +835,7 @@ def input_range(puzzle: Puzzle) -> QuizQuestion | None:
     if not puzzle.scene.linkage.drive.coordinate.is_angle:
         return None
     own = None if info.full_turn else (degrees(info.input_range[0]), degrees(info.input_range[1]))
-    wrong = [] if own is None else [QuizAnswer(_FULL, _overlooked(puzzle))]
+    wrong = [] if own is None else [QuizAnswer(said(_FULL), _overlooked(puzzle))]
     swings = [] if own is None else [own]
     for slip, other in _taken_for_range(puzzle, own):
         if len(wrong) == MOST - 1:
@@ -724,8 +843,8 @@ def input_range(puzzle: Puzzle) -> QuizQuestion | None:
         if all(_are_apart(one, other) for one in swings):
             swings.append(other)
             wrong.append(QuizAnswer(swing(*other), slip))
-    right = QuizAnswer(_FULL if own is None else swing(*own))
-    text = f"How far can the {info.input_name} turn?"
+    right = QuizAnswer(said(_FULL) if own is None else swing(*own))
+    text = said("How far can the {link} turn?", link=info.input_said)
     why = _why_fully(puzzle) if own is None else _why_swinging(puzzle)
     return puzzle.question("input", text, right, wrong, why, shuffled=True)
 
@@ -738,8 +857,8 @@ def _are_apart(one: Swing, other: Swing) -> bool:
 def _overlooked(puzzle: Puzzle) -> str:
     """Return in words what a full turn of an input that swings would overlook."""
     if any(puzzle.scene.mechanism.stops):
-        return "the limit overlooked: beyond it the loop does not close"
-    return "the stroke of the drive overlooked"
+        return said("the limit overlooked: beyond it the loop does not close")
+    return said("the stroke of the drive overlooked")
 
 
 def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, Swing]]:
@@ -748,17 +867,20 @@ def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, S
     if body is not None and body.slider is None and body.name not in info.turning_links:
         angles = np.degrees(puzzle.values(f"{body.name}.angle"))
         if np.ptp(angles) > _SWINGS_APART:
-            slip = f"the swing of {puzzle.name(body)} taken for that of the input"
+            slip = said("the swing of {name} taken for that of the input", name=puzzle.name(body))
             yield slip, (float(angles.min()), float(angles.max()))
     if own is not None:
-        yield "the angles counted clockwise", (-own[1], -own[0])
-        yield "the swing counted from its own limit", (0.0, own[1] - own[0])
+        yield said("the angles counted clockwise"), (-own[1], -own[0])
+        yield said("the swing counted from its own limit"), (0.0, own[1] - own[0])
         return
     if body is not None and len(ends := [*_turning_back(puzzle, body)]) == 2:
-        yield f"the dead centres of {puzzle.name(body)} taken for limits of the crank", (ends[0], ends[1])
+        yield (
+            said("the dead centres of {name} taken for limits of the crank", name=puzzle.name(body)),
+            (ends[0], ends[1]),
+        )
     for _ in range(MOST):
         low = puzzle.random.uniform(-90, 90)
-        yield "a limit seen where the loop still closes", (low, low + puzzle.random.uniform(100, 200))
+        yield said("a limit seen where the loop still closes"), (low, low + puzzle.random.uniform(100, 200))
 
 
 def _why_fully(puzzle: Puzzle) -> str:
@@ -766,19 +888,33 @@ def _why_fully(puzzle: Puzzle) -> str:
     info, bar = puzzle.scene.info, four_bar_of(puzzle.scene.mechanism)
     if bar is not None and sum(joint.dyad for joint in puzzle.scene.linkage.joints) == 1:
         if bar.change_points:
-            return f"{info.grashof}: where all bars lie in one line it is at a change point, and turns on."
-        against = "both links that turn on it" if bar.shortest == "ground" else "it"
-        return f"{info.grashof}, and the shortest link is the {bar.shortest}: {against} can turn fully."
+            return said(
+                "{sums}: where all bars lie in one line it is at a change point, and turns on.",
+                sums=info.grashof,
+            )
+        if bar.shortest == "ground":
+            return said(
+                "{sums}, and the shortest link is the ground: both links that turn on it can turn fully.",
+                sums=info.grashof,
+            )
+        return said(
+            "{sums}, and the shortest link is {shortest}: it can turn fully.",
+            sums=info.grashof,
+            shortest=said(SHORTEST[bar.shortest]),
+        )
     if info.transmission is None:
         slides = any(joint.slides for joint in puzzle.scene.linkage.joints)
-        return f"What it drives {'slides as far as it is taken' if slides else 'turns with it all the way'}."
+        if slides:
+            return said("What it drives slides as far as it is taken.")
+        return said("What it drives turns with it all the way.")
     least = floor(10 * degrees(info.transmission.least)) / 10
     if least > 0:
-        return (
-            "A loop closes no farther where a transmission angle comes to 0°: here none is ever less than "
-            f"{least:.1f}°."
+        return said(
+            "A loop closes no farther where a transmission angle comes to 0°: here none is ever "
+            "less than {least}°.",
+            least=f"{least:.1f}",
         )
-    return "Where its bars come into one line it is at a change point, and turns on."
+    return said("Where its bars come into one line it is at a change point, and turns on.")
 
 
 def _why_swinging(puzzle: Puzzle) -> str:
@@ -786,13 +922,15 @@ def _why_swinging(puzzle: Puzzle) -> str:
     linkage, info = puzzle.scene.linkage, puzzle.scene.info
     clauses = [linkage.joint(end).at_limit for end in puzzle.scene.mechanism.stops if end]
     if not clauses:
-        return f"Its stroke is all: {linkage.drive.actuator.at_ends(puzzle.scene.length_unit)}."
+        ends = linkage.drive.actuator.at_ends(puzzle.scene.length_unit)
+        return said("Its stroke is all: {ends}.", ends=ends)
     if len(set(clauses)) == 1:
-        return f"At both ends {clauses[0]}: beyond that the loop does not close."
-    ends = [
-        f"at {tenths(degrees(end))} {clause}" for end, clause in zip(info.input_range, clauses, strict=True)
-    ]
-    return f"The loop does not close farther: {', and '.join(ends)}."
+        return said("At both ends {clause}: beyond that the loop does not close.", clause=clauses[0])
+    one, other = (
+        said("at {angle} {clause}", angle=tenths(degrees(end)), clause=clause)
+        for end, clause in zip(info.input_range, clauses, strict=True)
+    )
+    return said("The loop does not close farther: {one}, and {other}.", one=one, other=other)
 
 
 def closure(puzzle: Puzzle) -> QuizQuestion | None:
@@ -802,18 +940,25 @@ def closure(puzzle: Puzzle) -> QuizQuestion | None:
     if not ends:
         return None
     place, dyad, kept = puzzle.random.choice(ends)
-    jump, slip = "No velocity jumps there", "the closure that it came by"
-    why = (
-        f"The {info.input_name} stands there for an instant, the links do not: they run on to the other side."
+    jump, slip = said("No velocity jumps there"), said("the closure that it came by")
+    why = said(
+        "The {link} stands there for an instant, the links do not: they run on to the other side.",
+        link=info.input_said,
     )
     if kept:  # the scene's statement makes it so, or a dyad down the chain, which cannot be seen
-        jump, slip = "All velocities change their sign there at once", "the closure beyond the limit"
-        why = "With all velocities reversed each link goes back the way it came."
-    text = (
-        f"At {tenths(degrees(place))} {puzzle.scene.linkage.joint(dyad).at_limit}, and the {info.input_name} "
-        f"turns back. {jump}. On which closure do the links come back?"
+        jump, slip = (
+            said("All velocities change their sign there at once"),
+            said("the closure beyond the limit"),
+        )
+        why = said("With all velocities reversed each link goes back the way it came.")
+    text = said(
+        "At {angle} {clause}, and the {link} turns back. {jump}. On which closure do the links come back?",
+        angle=tenths(degrees(place)),
+        clause=puzzle.scene.linkage.joint(dyad).at_limit,
+        link=info.input_said,
+        jump=jump,
     )
-    answers, look = ("on the same closure", "on the other closure"), Look(names=1, ghost=True)
+    answers, look = (to_say("on the same closure"), to_say("on the other closure")), Look(names=1, ghost=True)
     return puzzle.question("input", text, *either(answers, kept, slip), why, shows=look)
 
 
@@ -826,28 +971,34 @@ def grashof(puzzle: Puzzle) -> QuizQuestion | None:
     if 0 < abs(bar.margin) < CLEAR * lengths[-1]:
         return None
     answers = (
-        "a link turns fully: s + l < p + q",
-        "no link turns fully: s + l > p + q",
-        "s + l = p + q: a change point",
+        to_say("a link turns fully: s + l < p + q"),
+        to_say("no link turns fully: s + l > p + q"),
+        to_say("s + l = p + q: a change point"),
     )
     right = 2 if bar.margin == 0 else 0 if bar.margin > 0 else 1
-    slips = ["the sums compared the wrong way round"] * 2 + [""]
+    slips = [said("the sums compared the wrong way round")] * 2 + [""]
     if right == 2:
-        slips = ["equal sums taken for unequal ones"] * 3
-    wrong = [QuizAnswer(answers[n], slips[n]) for n in range(3) if n != right]
+        slips = [said("equal sums taken for unequal ones")] * 3
+    wrong = [QuizAnswer(said(answers[n]), slips[n], alphabet=answers[n]) for n in range(3) if n != right]
     s, p, q, longest = map(number, lengths)
     return puzzle.question(
         bar.joint,
-        f"The lengths of the four-bar that the input drives, in {puzzle.scene.length_unit}: {_listed(bar)}. "
-        "Does a link turn fully against the others?",
-        QuizAnswer(answers[right]),
+        said(
+            "The lengths of the four-bar that the input drives, in {unit}: {lengths}. Does "
+            "a link turn fully against the others?",
+            unit=puzzle.scene.length_unit,
+            lengths=_listed(bar),
+        ),
+        QuizAnswer(said(answers[right]), alphabet=answers[right]),
         wrong,
-        f"s + l = {s} + {longest} {'<>='[right]} p + q = {p} + {q}.",
+        said("{found}.", found=f"s + l = {s} + {longest} {'<>='[right]} p + q = {p} + {q}"),
     )
 
 
 def _listed(bar: FourBar) -> str:
-    return ", ".join(f"{part} {number(length)}" for part, length in bar.links.items())
+    return said_as("list", ", ").join(
+        f"{name_said(part)} {number(length)}" for part, length in bar.links.items()
+    )
 
 
 def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
@@ -863,22 +1014,34 @@ def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
     one, other = puzzle.random.choice([pair for pair in pairs if pair != (0, 3)])
     written = [*order]
     written[one], written[other] = written[other], written[one]
-    s, p, q, longest = (f"{number(bar.links[part])} ({part})" for part in written)
+    s, p, q, longest = (f"{number(bar.links[part])} ({name_said(part)})" for part in written)
     right = order[puzzle.random.choice((one, other))]
     wrong = [order[n] for n in range(4) if n not in (one, other)]
     slips = {}
     if written[0] != "input":
-        slips["input"] = "the input taken for the shortest, whatever its length"
+        slips["input"] = said("the input taken for the shortest, whatever its length")
     if written[3] != "ground":
-        slips["ground"] = "the ground taken for the longest, whatever its length"
-    places = ("s, the shortest", "one of p and q", "one of p and q", "l, the longest")
+        slips["ground"] = said("the ground taken for the longest, whatever its length")
+    middle = said("one of p and q")
+    places = (said("s, the shortest"), middle, middle, said("l, the longest"))
     return puzzle.question(
         bar.joint,
-        f"Grashof's sums of this four-bar are written as s + l = {s} + {longest} and p + q = {p} + {q}. "
-        "Which of these links belongs to the other sum?",
-        QuizAnswer(right),
-        [QuizAnswer(part, slips.get(part, "")) for part in wrong],
-        f"The {right} is {places[order.index(right)]}, not {places[written.index(right)]}.",
+        said(
+            "Grashof's sums of this four-bar are written as s + l = {s} + {longest} and p + q = "
+            "{p} + {q}. Which of these links belongs to the other sum?",
+            s=s,
+            longest=longest,
+            p=p,
+            q=q,
+        ),
+        QuizAnswer(name_said(right), alphabet=right),
+        [QuizAnswer(name_said(part), slips.get(part, ""), alphabet=part) for part in wrong],
+        said(
+            "The {link} is {place}, not {other}.",
+            link=name_said(right),
+            place=places[order.index(right)],
+            other=places[written.index(right)],
+        ),
     )
 
 

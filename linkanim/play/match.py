@@ -37,6 +37,7 @@ from linkanim.synthesis.answers import document_of
 from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, Real
 from linkanim.units import angle, shown, significant
+from linkanim.words import kept_as_said, row_said, said, said_many, to_say
 
 # The worth of a four-bar for a curve: how exactly it follows, how small it is, how well it transmits.
 
@@ -177,7 +178,7 @@ def level_names() -> tuple[str, ...]:
     return tuple(name.removesuffix(".toml").split("-", 1)[1] for name in files)
 
 
-@lru_cache(maxsize=4)
+@kept_as_said(4)
 def level_of(name: str) -> Level:
     """Return a level by its name, by the path of its file, or made from `seed-N`.
 
@@ -281,7 +282,7 @@ def made(seed: int) -> Level:
     full = Worth(1.5, 1.1 * best.links, best.angle - math.radians(3))
     return Level(
         f"seed-{seed}",
-        f"Curve {seed}",
+        said("Curve {number}", number=seed),
         "",
         target,
         _BEGINNING,
@@ -306,8 +307,10 @@ _KEPT = 60
 """The most drags that can be undone."""
 _POINTS = 100
 """The points for each of the three full scores."""
-_GOAL = "Drag joints until the coupler point runs along the dots; size and angle count as far as it does."
-_NAMES = ("how exactly", "how small", "transmission angle")
+_GOAL = to_say(
+    "Drag joints until the coupler point runs along the dots; size and angle count as far as it does."
+)
+_NAMES = (to_say("how exactly"), to_say("how small"), to_say("transmission angle"))
 
 
 @frozen
@@ -453,23 +456,27 @@ class MatchGame(Game):
         points = _earned(own)
         known = zip(_NAMES, _worded(self.worth), points, own, answer, strict=True)
         bars = tuple(
-            ScoreBar(name, f"{text}   {some}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
+            ScoreBar(said(name), f"{text}   {some}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
             for name, text, some, share, mark in known
         )
         choices = (
-            Choice("1", "Back to mine" if self.gave_up else "Give up: the path solver's answer"),
-            Choice("2", "Begin again"),
-            Choice("3", "The next level"),
+            Choice("1", said("Back to mine") if self.gave_up else said("Give up: the path solver's answer")),
+            Choice("2", said("Begin again")),
+            Choice("3", said("The next level")),
         )
         panel = GamePanel(
-            level.title,
-            scores=(self._place, f"{sum(points)} of {3 * _POINTS}", f"best {self.best}"),
-            lines=tuple(filter(None, (_GOAL, level.about, self._fixed))),
+            said(level.title),
+            scores=(
+                self._place,
+                said("{number} of {count}", number=sum(points), count=3 * _POINTS),
+                said("best {score}", score=self.best),
+            ),
+            lines=tuple(filter(None, (said(_GOAL), said(level.about), self._fixed))),
             bars=bars,
             verdict=self._verdict(own, answer),
             well=not self.gave_up,
             choices=choices if level.answer else choices[1:],
-            hint="drag joints (Shift: tenths)   Space runs   ← → turn   Ctrl+Z   ↑ ↓ level   Esc out",
+            hint=said("drag joints (Shift: tenths)   Space runs   ← → turn   Ctrl+Z   ↑ ↓ level   Esc out"),
         )
         handles = () if self.gave_up else self.free
         return replace(over, listed=panel, stroke=level.curve, handles=handles)
@@ -478,26 +485,40 @@ class MatchGame(Game):
     def _fixed(self) -> str:
         """Say which joints are fixed."""
         names = [subscripted(name) for name in sorted(self.of_level.fixed)]
-        return f"{' and '.join(names)} {'stays' if len(names) == 1 else 'stay'} in place." if names else ""
+        if not names:
+            return ""
+        return said_many(
+            "{names} stays in place.", "{names} stay in place.", len(names), names=row_said(names)
+        )
 
     @property
     def _place(self) -> str:
         known = level_names()
-        return f"level {known.index(self.level) + 1} / {len(known)}" if self.level in known else self.level
+        if self.level not in known:
+            return self.level
+        return said("level {number} / {count}", number=known.index(self.level) + 1, count=len(known))
 
     def _verdict(self, own: tuple[float, ...], answer: tuple[float, ...]) -> str:
         """Say what the linkage reaches, and where it beats the path solver."""
         if self.gave_up:
-            better = [words for words, share in zip(_BETTER, answer, strict=True) if share < 1.0]
-            return "The path solver's answer" + (f"; {' and '.join(better)} can be had" if better else "")
-        reached = "Full score" if min(own) >= 1.0 else "It follows" if own[0] >= 1.0 else ""
-        beaten = [words for words, mine, its in zip(_BETTER, own, answer, strict=True) if mine > its + 0.005]
+            better = [said(words) for words, share in zip(_BETTER, answer, strict=True) if share < 1.0]
+            if not better:
+                return said("The path solver's answer")
+            return said("The path solver's answer; {better} can be had", better=row_said(better))
+        reached = said("Full score") if min(own) >= 1.0 else said("It follows") if own[0] >= 1.0 else ""
+        beaten = [
+            said(words) for words, mine, its in zip(_BETTER, own, answer, strict=True) if mine > its + 0.005
+        ]
         if reached and beaten and self.of_level.answer:
-            return f"{reached}, with {' and '.join(beaten)} than the path solver's"
+            return said(
+                "{reached}, with {beaten} than the path solver's",
+                reached=reached,
+                beaten=row_said(beaten),
+            )
         return reached
 
 
-_BETTER = ("a closer way", "smaller links", "a better transmission angle")
+_BETTER = (to_say("a closer way"), to_say("smaller links"), to_say("a better transmission angle"))
 """The words for a linkage that beats another one in each of the three."""
 
 
@@ -516,8 +537,10 @@ def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
 
 def _worded(reached: Worth) -> tuple[str, str, str]:
     """Return deviation, size and angle in words."""
-    off = f"{significant(reached.off, 2)} % off" if reached.off < _LOOSEST else "far off"
-    return off, f"{reached.links:.2f} sizes", f"{math.degrees(reached.angle):.0f}°"
+    off = said("far off")
+    if reached.off < _LOOSEST:
+        off = said("{share} % off", share=significant(reached.off, 2))
+    return off, said("{number} sizes", number=f"{reached.links:.2f}"), f"{math.degrees(reached.angle):.0f}°"
 
 
 def _is_sound(joints: Linkage4, level: Level) -> bool:

@@ -33,13 +33,14 @@ from linkanim.player.pencil import pencil
 from linkanim.player.state import Game, State, with_effect, with_toast
 from linkanim.scenes import chapters, load, names
 from linkanim.units import shown
+from linkanim.words import said, said_as, to_say
 
 # The choice of a round by chapter and level, with the best scores.
 
 _ABOUT = {
-    1: "which way, how fast, how far",
-    2: "dead centres, closures, curves",
-    3: "instant centres and forces",
+    1: to_say("which way, how fast, how far"),
+    2: to_say("dead centres, closures, curves"),
+    3: to_say("instant centres and forces"),
 }
 
 
@@ -81,17 +82,19 @@ class Menu(OverWhatRuns):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the chapters."""
-        best = {name: f"best {score}" for name, score in self.best}
+        best = {name: said("best {score}", score=score) for name, score in self.best}
         choices = tuple(
             Choice(f"{n}", titled(chapter), below=best.get(f"{chapter.replace(' ', '_')}.{self.level}", ""))
             for n, chapter in enumerate(self._rows(state), 1)
         )
-        level = Choice(f"{len(choices) + 1}", f"Level {self.level}", below=_ABOUT[self.level])
+        level = Choice(
+            f"{len(choices) + 1}", said("Level {number}", number=self.level), below=said(_ABOUT[self.level])
+        )
         panel = GamePanel(
-            "Predict",
-            lines=("Ten questions, before it moves.",),
+            said_as("game", "Predict"),
+            lines=(said("Ten questions, before it moves."),),
             choices=(*choices, level),
-            hint="Enter begins   ↑ ↓ chapter   ← → level   Esc goes back",
+            hint=said("Enter begins   ↑ ↓ chapter   ← → level   Esc goes back"),
             chosen=self._rows(state).index(self.chapter),
         )
         return replace(over, listed=panel)
@@ -122,9 +125,9 @@ def _scored(text: str) -> tuple[str, int]:
 # The choice of a game.
 
 OFFERS = (
-    Door("menu", "Predict", "say what a linkage does before it moves"),
-    Door("match", "Match", "drag a four-bar until it draws the dotted curve"),
-    Door("follow", "Follow", "turn the crank to keep the ram between two lines"),
+    Door("menu", "Predict", to_say("say what a linkage does before it moves")),
+    Door("match", "Match", to_say("drag a four-bar until it draws the dotted curve")),
+    Door("follow", "Follow", to_say("turn the crank to keep the ram between two lines")),
 )
 
 
@@ -151,8 +154,11 @@ class Lobby(OverWhatRuns):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the games."""
-        hint = "Enter begins   ↑ ↓ choose   Esc goes back"
-        return replace(over, listed=GamePanel("Play", choices=choices_of(OFFERS), hint=hint, chosen=self.row))
+        hint = said("Enter begins   ↑ ↓ choose   Esc goes back")
+        return replace(
+            over,
+            listed=GamePanel(said_as("game", "Play"), choices=choices_of(OFFERS), hint=hint, chosen=self.row),
+        )
 
 
 def read_lobby(words: GameWords) -> Lobby:
@@ -164,15 +170,15 @@ def read_lobby(words: GameWords) -> Lobby:
 
 EACH = 9 * FRAMES_PER_SECOND
 _NAME = "linkanim"
-_TITLE_ABOUT = "An arcade of planar linkages"
-_HINT = "press any key   ↑ ↓ choose   O all mechanisms   Q quits"
+_TITLE_ABOUT = to_say("An arcade of planar linkages")
+_HINT = to_say("press any key   ↑ ↓ choose   O all mechanisms   Q quits")
 
 
 DOORS = (
-    Door("run", "Run", "a mechanism"),
-    Door("build", "Build", "draw a linkage on a sheet"),
-    Door("path", "Draw a path", "and get linkages that follow it"),
-    Door("play", "Play", "predict, match, follow"),
+    Door("run", "Run", to_say("a mechanism")),
+    Door("build", "Build", to_say("draw a linkage on a sheet")),
+    Door("path", "Draw a path", to_say("and get linkages that follow it")),
+    Door("play", "Play", to_say("predict, match, follow")),
 )
 _IGNORED = frozenset({"scrub", "point", "move", "pull"})
 """Actions of a moving mouse, which do not leave the title: a click does."""
@@ -207,7 +213,7 @@ class Title(Game):
     def carried(self, state: State, action: Action) -> State:
         """Go through a door, or choose one."""
         if action.name == "back":
-            return with_toast(state, "Q quits")
+            return with_toast(state, said("Q quits"))
         if action.name in _HELD:
             return _HELD[action.name](state, action.value)
         if action.name == "shelf":
@@ -232,11 +238,11 @@ class Title(Game):
         run = run._replace(about=state.beneath.scene.title) if state.beneath else run
         panel = GamePanel(
             _NAME,
-            lines=(_TITLE_ABOUT,),
+            lines=(said(_TITLE_ABOUT),),
             choices=choices_of((run, *others)),
-            subject=state.scene.title,
-            lines_after=(state.scene.look_at,),
-            hint=_HINT,
+            subject=said(state.scene.title),
+            lines_after=(said(state.scene.look_at),),
+            hint=said(_HINT),
             large=True,
             chosen=self.door,
         )

@@ -20,6 +20,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import png_bytes
 from linkanim.play.question import QuizAnswer, QuizQuestion
 from linkanim.play.quiz import LETTERS, answer_text, curve_png, figure_words, question_figure
+from linkanim.words import said
 
 Rounds = Mapping[str, Sequence[QuizQuestion]]
 """Questions by the name of their chapter."""
@@ -85,8 +86,8 @@ class _Posed(NamedTuple):
         """Return the feedback of an answer, as HTML."""
         slip = self.answers[number].slip
         if number == self.question.right:
-            return "<p>Right.</p>"
-        return f"<p>No: that is {escape(slip)}.</p>" if slip else "<p>No.</p>"
+            return f"<p>{said('Right.')}</p>"
+        return f"<p>{escape(said('No: that is {slip}.', slip=slip) if slip else said('No.'))}</p>"
 
     @property
     def why(self) -> str:
@@ -165,7 +166,7 @@ def qti(rounds: Rounds, title: str, progress: Callable[[int, int], None] = lambd
     for number, (chapter, questions) in enumerate(_asked(rounds, progress), 1):
         ident = f"assessment{number}"
         top = ET.Element("questestinterop", xmlns=_QTI)
-        heading = title if len(rounds) == 1 else f"{title}: {chapter}"
+        heading = title if len(rounds) == 1 else said("{title}: {part}", title=title, part=chapter)
         assessment = ET.SubElement(top, "assessment", ident=ident, title=heading)
         _qti_fields(assessment, {"cc_maxattempts": "1"})
         section = ET.SubElement(assessment, "section", ident="root_section")
@@ -288,9 +289,16 @@ def _asked(rounds: Rounds, progress: Callable[[int, int], None]) -> Iterator[tup
 def _drawn(question: QuizQuestion, number: int) -> _Posed:
     ident = f"q{number}x{sha256(str(question.question_id).encode()).hexdigest()[:12]}"
     shown = question_figure(question)
-    figure = _Picture(f"{ident}.png", png_bytes(shown.surface()), f"{figure_words(question)}.", shown.size[0])
+    figure = _Picture(
+        f"{ident}.png",
+        png_bytes(shown.surface()),
+        said("{found}.", found=figure_words(question)),
+        shown.size[0],
+    )
     curves = (
-        _Picture(f"{ident}{letter}.png", curve_png(one.curve), f"{one.text} over one period", 160)
+        _Picture(
+            f"{ident}{letter}.png", curve_png(one.curve), said("{curve} over one period", curve=one.text), 160
+        )
         for letter, one in zip(LETTERS, question.answers, strict=False)
         if one.curve
     )

@@ -24,6 +24,7 @@ from linkanim.player.state import Game, State, proved, with_effect
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
+from linkanim.words import said, said_as
 
 COUNT = 10
 """The questions of a round, before missed ones come again."""
@@ -256,7 +257,10 @@ class Predict(Game):
         answers = [*enumerate(zip(question.answers, moods, strict=True), 1)]
         choices = tuple(
             Choice(
-                f"{n}", one.text if question.kind != "instant centre" else f"at {n}", mood, curve=one.curve
+                f"{n}",
+                one.text if question.kind != "instant centre" else said("at {letter}", letter=n),
+                mood,
+                curve=one.curve,
             )
             for n, (one, mood) in answers
         )
@@ -267,7 +271,7 @@ class Predict(Game):
             lines=(question.text,),
             aside=pose_words(question),
             choices=choices,
-            hint="1–4 or a click answers   Esc leaves" if waits else "Enter goes on   Esc leaves",
+            hint=said("1–4 or a click answers   Esc leaves") if waits else said("Enter goes on   Esc leaves"),
         )
         if not waits:
             panel = self._verdict(panel, question)
@@ -284,35 +288,47 @@ class Predict(Game):
     def _scores(self) -> tuple[str, ...]:
         number = len(self.done) + (self.chosen is None)
         again = self._asked._comes_again if number > COUNT else None
-        place = f"{number} / {COUNT}" if again is None else f"again {again[0] + 1} / {len(self.missed)}"
-        return place, f"{_streak(self.done)} in a row", f"{self.score} points"
+        place = f"{number} / {COUNT}"
+        if again is not None:
+            place = said("again {number} / {count}", number=again[0] + 1, count=len(self.missed))
+        row = said("{count} in a row", count=_streak(self.done))
+        return place, row, said("{count} points", count=self.score)
 
     def _verdict(self, panel: GamePanel, question: QuizQuestion) -> GamePanel:
         assert self.chosen is not None
         well = self.chosen == question.right
         gained = points(self.level, self.done, len(self.done) - 1)
         slip = question.answers[self.chosen].slip
-        verdict = f"Right: {gained} points" if well else f"No: that is {slip}." if slip else "No."
+        if well:
+            verdict = said("Right: {count} points", count=gained)
+        else:
+            verdict = said("No: that is {slip}.", slip=slip) if slip else said("No.")
         return replace(panel, verdict=verdict, well=well, lines_after=(question.why,))
 
     def _end_panel(self) -> GamePanel:
         first = self.done[:COUNT]
         right = sum(one.right for one in first)
+        frames = sum(one.frames for one in self.done)
         longest = max((_streak(self.done[:n]) for n in range(len(self.done) + 1)), default=0)
         return GamePanel(
-            f"{self.score} points",
-            scores=(titled(self.chapter), f"level {self.level}"),
+            said("{count} points", count=self.score),
+            scores=(titled(self.chapter), said("level {number}", number=self.level)),
             lines=(
-                f"{right} of {len(first)} right at first, {longest} in a row at best.",
-                f"{sum(one.frames for one in self.done) / FRAMES_PER_SECOND:.0f} s for all answers.",
+                said(
+                    "{right} of {count} right at first, {longest} in a row at best.",
+                    right=right,
+                    count=len(first),
+                    longest=longest,
+                ),
+                said("{time} s for all answers.", time=f"{frames / FRAMES_PER_SECOND:.0f}"),
                 self._best_words(),
                 *self._missed_words(),
             ),
             choices=(
-                Choice("1", "Another round", below="what was missed comes first"),
-                Choice("2", "Another chapter or level"),
+                Choice("1", said("Another round"), below=said("what was missed comes first")),
+                Choice("2", said("Another chapter or level")),
             ),
-            hint="Enter: another round   Esc: other rounds",
+            hint=said("Enter: another round   Esc: other rounds"),
             large=True,
             chosen=0,
         )
@@ -320,9 +336,11 @@ class Predict(Game):
     def _best_words(self) -> str:
         """Say the best score of such a round."""
         if self.score <= self.best:
-            return f"The best is {self.best} points."
+            return said("The best is {best} points.", best=self.best)
         return (
-            f"The best so far; before, it was {self.best}." if self.best else "The first score of its kind."
+            said("The best so far; before, it was {best}.", best=self.best)
+            if self.best
+            else said("The first score of its kind.")
         )
 
     def _missed_words(self) -> Iterator[str]:
@@ -330,10 +348,14 @@ class Predict(Game):
         wrong = [one.question_id for one in self.done[:COUNT] if not one.right]
         if wrong:
             kinds = Counter(one.kind for one in wrong)
-            told = ", ".join(f"{kind}{f' ({count} times)' * (count > 1)}" for kind, count in kinds.items())
-            titles = ", ".join(dict.fromkeys(load(one.scene).title for one in wrong))
-            yield f"Missed at first: {told}."
-            yield f"In: {titles}."
+            comma = said_as("list", ", ")
+            told = comma.join(
+                said("{kind} ({count} times)", kind=said(kind), count=count) if count > 1 else said(kind)
+                for kind, count in kinds.items()
+            )
+            titles = comma.join(dict.fromkeys(said(load(one.scene).title) for one in wrong))
+            yield said("Missed at first: {kinds}.", kinds=told)
+            yield said("In: {titles}.", titles=titles)
 
 
 def _streak(done: tuple[GivenAnswer, ...]) -> int:

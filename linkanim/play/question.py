@@ -24,6 +24,7 @@ from linkanim.picture.figure import Figure, figure
 from linkanim.picture.look import Look
 from linkanim.scenes.scene import Scene
 from linkanim.units import short, shown, significant, typeset
+from linkanim.words import said, to_say
 
 # A question about a linkage at a pose, and what it is made from.
 
@@ -44,12 +45,17 @@ class QuizAnswer(NamedTuple):
     slip: str = ""
     place: Point | None = None
     curve: tuple[float, ...] = ()
+    alphabet: str = ""
+    """Its words in English, by which answers are ordered in every language; "" where they are its text."""
 
 
 def either(answers: tuple[str, str], first: bool, slip: str) -> tuple[QuizAnswer, list[QuizAnswer]]:
-    """Return the right one of two answers, the `first` or the other one, and the wrong one with its slip."""
+    """Return the right one of two answers, the `first` or the other one, and the wrong one with its slip.
+
+    The answers are English, and said here.
+    """
     right, wrong = answers if first else answers[::-1]
-    return QuizAnswer(right), [QuizAnswer(wrong, slip)]
+    return QuizAnswer(said(right), alphabet=right), [QuizAnswer(said(wrong), slip, alphabet=wrong)]
 
 
 class QuestionId(NamedTuple):
@@ -162,7 +168,9 @@ class Puzzle:
     def centre_of(self, body: Body) -> tuple[complex, str]:
         """Return the place about which a body turns at the pose, infinite without one, and its name."""
         place = complex(self.value(f"{body.name}.pole.x"), self.value(f"{body.name}.pole.y"))
-        return place, self.scene.linkage.pivot(body.joints) or f"the instant centre of {self.name(body)}"
+        return place, self.scene.linkage.pivot(body.joints) or said(
+            "the instant centre of {name}", name=self.name(body)
+        )
 
     def name(self, body: Body) -> str:
         """Return a body's name, with its number where the scene gives one."""
@@ -203,7 +211,9 @@ class Puzzle:
         stops: float | None = None,
     ) -> QuizQuestion:
         """Return the question; its answers are in alphabetical order, or `shuffled`."""
-        answers = sorted({one.text: one for one in (*wrong, right)}.values(), key=lambda one: one.text)
+        answers = sorted(
+            {one.text: one for one in (*wrong, right)}.values(), key=lambda one: one.alphabet or one.text
+        )
         if shuffled:
             self.random.shuffle(answers)
         about = (self.kind, self.scene, self.phase, subject)
@@ -216,11 +226,21 @@ class Puzzle:
 MOST = 4
 """The most answers of a question."""
 
-WAYS = ("to the right", "up", "to the left", "down")
+WAYS = (to_say("to the right"), to_say("up"), to_say("to the left"), to_say("down"))
 """The compass points of `quarter`, as directions to move, and as places beside something."""
-SIDES = ("to the right of", "above", "to the left of", "below")
-BESIDE = ("on the right", "above", "on the left", "below")
-TURNS = ("counterclockwise", "clockwise")
+SIDES = (
+    to_say("{name} lies to the right of {other}"),
+    to_say("{name} lies above {other}"),
+    to_say("{name} lies to the left of {other}"),
+    to_say("{name} lies below {other}"),
+)
+BESIDE = (
+    to_say("Seen from {other}, {name} lies on the right"),
+    to_say("Seen from {other}, {name} lies above"),
+    to_say("Seen from {other}, {name} lies on the left"),
+    to_say("Seen from {other}, {name} lies below"),
+)
+TURNS = (to_say("counterclockwise"), to_say("clockwise"))
 
 
 def quarter(vector: complex) -> int:
@@ -245,7 +265,7 @@ def angle(value: float) -> str:
 
 def swing(low: float, high: float) -> str:
     """Return the range of a swing in words, from two angles in degrees."""
-    return f"it swings between {tenths(low)} and {tenths(high)}"
+    return said("it swings between {low} and {high}", low=tenths(low), high=tenths(high))
 
 
 def tenths(value: float) -> str:

@@ -25,6 +25,7 @@ from linkanim.play.question import Puzzle, QuestionId, QuizAnswer, QuizQuestion
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown, stepped
+from linkanim.words import html_language, name_said, said, said_as, sentences
 
 # Rounds of questions about one scene or several, the same ones for the same seed.
 
@@ -125,7 +126,6 @@ _SIZE, _ON_PAPER = (480, 300), (344, 200)
 """A figure's size in pixels, and that of one on paper, which is 40 mm high with letters of 6 pt."""
 _LAST = 2
 """The questions at the end that are kept together."""
-_SIGNED = "<p class='signed'><span>Name</span><span>Date</span></p>"
 _STYLE = (
     body_style("15px/1.45", 54)
     + """\
@@ -152,13 +152,22 @@ def pose_words(question: QuizQuestion) -> str:
     """Return a question's scene, where its input is, and how fast and which way that runs."""
     scene, pose = question.scene, question.scene.pose(question.phase)
     drive = scene.linkage.drive
-    running = f", {speed_words(scene, drive.speed)}"
+    running = speed_words(scene, drive.speed)
     if drive.coordinate.is_angle:
         # at a limit the input rests, and is about to turn back
-        turns = "counterclockwise" if (pose.coordinate_rate or pose.coordinate_second) > 0 else "clockwise"
-        running = f", {speed_words(scene, abs(drive.speed))} {turns}"
+        forth = (pose.coordinate_rate or pose.coordinate_second) > 0
+        speed = speed_words(scene, abs(drive.speed))
+        running = (
+            said("{speed} counterclockwise", speed=speed) if forth else said("{speed} clockwise", speed=speed)
+        )
     at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
-    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{running}"
+    return said(
+        "{title}, {link} at {place}, {speed}",
+        title=said(scene.title),
+        link=scene.info.input_said,
+        place=driven_words(scene, at),
+        speed=running,
+    )
 
 
 def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Figured:
@@ -182,18 +191,20 @@ def legend(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:
     labels = {line.of.partition(":")[2]: line.text for line in lines}
     told = []
     for body in question.scene.linkage.bodies:
-        label, word = labels.get(body.name), names_[body.name]
-        asked = re.search(rf"{re.escape(phrase(body, names_))}\b", question.text)
+        label, word = labels.get(body.name), name_said(names_[body.name])
+        asked = re.search(rf"{re.escape(phrase(body, names_))}(?![a-z0-9])", question.text)
         if label is None and asked:
-            told.append(f"{word}: {'–'.join(body.joints[:2]) or body.slider}")
+            told.append(
+                said("{part}: {measure}", part=word, measure="–".join(body.joints[:2]) or body.slider)
+            )
         elif label and label.isdecimal() and word != label:
             told.append(f"{label} {word}")
-    return ", ".join(told)
+    return said_as("list", ", ").join(told)
 
 
 def figure_words(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:
     """Return what stands below a question's figure: where its input is, and names that it lacks."""
-    return "; ".join(filter(None, (pose_words(question), legend(question, size))))
+    return said_as("list", "; ").join(filter(None, (pose_words(question), legend(question, size))))
 
 
 def answer_text(question: QuizQuestion, number: int) -> str:
@@ -201,18 +212,19 @@ def answer_text(question: QuizQuestion, number: int) -> str:
     answer = question.answers[number]
     joints = {joint.name for joint in question.scene.linkage.joints}
     named = answer.place is None or answer.text in joints
-    return answer.text if named else f"at {LETTERS[number]}"
+    return answer.text if named else said("at {letter}", letter=LETTERS[number])
 
 
 def as_text(round_: Sequence[QuizQuestion]) -> str:
     """Return a round in plain text, the key below."""
     lines = []
     for number, question in enumerate(round_, 1):
-        lines += [f"{number}. {question.text}", f"   {pose_words(question)} (phase {question.phase:g} rad)"]
+        posed = said("{pose} (phase {phase} rad)", pose=pose_words(question), phase=f"{question.phase:g}")
+        lines += [f"{number}. {question.text}", f"   {posed}"]
         shown = map(_worded, question.answers)
         lines += [f"   {letter}) {answer}" for letter, answer in zip(LETTERS, shown, strict=False)]
         lines.append("")
-    lines.append("key")
+    lines.append(said("key"))
     lines += [f"{number}. {_key(question)}" for number, question in enumerate(round_, 1)]
     return "\n".join(lines)
 
@@ -228,10 +240,11 @@ def as_html(
     sections = [*_sections(round_, progress)]
     # the last page has more than one question
     asked = *sections[:-_LAST], f"<div class='last'>{''.join(sections[-_LAST:])}</div>"
-    head_lines = (f"<h1>{escape(title)}</h1>", _SIGNED)
+    signed = f"<p class='signed'><span>{said('Name')}</span><span>{said('Date')}</span></p>"
+    head_lines = (f"<h1>{escape(title)}</h1>", signed)
     body = "\n".join([*head_lines, *asked, *_key_page(round_, title)])
     inside = f"<body>\n<main>\n{body}\n</main>\n</body>"
-    return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
+    return f"<!doctype html>\n<html lang='{html_language()}'><head>{head}</head>{inside}</html>\n"
 
 
 def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
@@ -251,7 +264,7 @@ def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], Non
 
 
 def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
-    yield f"<div class='key'><h1>Key: {escape(title)}</h1><ol>"
+    yield f"<div class='key'><h1>{escape(said('Key: {title}', title=title))}</h1><ol>"
     yield from (
         f"<li>{escape(_key(question))}<br><small>{escape(_slips(question))}</small></li>"
         for question in round_
@@ -262,14 +275,16 @@ def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
 def _worded(answer: QuizAnswer) -> str:
     """Return an answer, with some values of its curve, evenly over the period."""
     values = answer.curve[:: max(len(answer.curve) // _PRINTED, 1)]
-    return f"{answer.text}: {' '.join(stepped(value, 0.01) for value in values)}" if values else answer.text
+    shown = " ".join(stepped(value, 0.01) for value in values)
+    return said("{curve}: {values}", curve=answer.text, values=shown) if values else answer.text
 
 
 def _drawn(curve: Sequence[float]) -> str:
     """Return a curve as an SVG of its own; empty where there is no curve."""
     if not curve:
         return ""
-    return f"<br>{embedded(svg(_CURVE, None, _curve_layers(curve), title='a curve'), 'a curve')}"
+    title = said("a curve")
+    return f"<br>{embedded(svg(_CURVE, None, _curve_layers(curve), title=title), title)}"
 
 
 def curve_png(curve: Sequence[float]) -> bytes:
@@ -296,8 +311,9 @@ def _curve_layers(curve: Sequence[float], scale: float = 1.0) -> list[Layer]:
 def _slips(question: QuizQuestion) -> str:
     """Return, in words, the misconceptions from which the wrong answers come."""
     answers = zip(LETTERS, question.answers, strict=False)
-    return "; ".join(f"{letter}) {answer.slip}" for letter, answer in answers if answer.slip)
+    return said_as("list", "; ").join(f"{letter}) {answer.slip}" for letter, answer in answers if answer.slip)
 
 
 def _key(question: QuizQuestion) -> str:
-    return f"{LETTERS[question.right]}) {answer_text(question, question.right)}. {question.why}"
+    right = said("{found}.", found=answer_text(question, question.right))
+    return f"{LETTERS[question.right]}) {sentences(right, question.why)}"

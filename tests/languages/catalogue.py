@@ -62,11 +62,19 @@ def _of_code() -> Iterator[Sentence]:
 def _of_tables() -> Iterator[Sentence]:
     """Yield the sentences of tables, which are said where they are shown."""
     from linkanim.picture.look import TOGGLES
+    from linkanim.play.kinds import KINDS
+    from linkanim.play.match import level_names, level_of
+    from linkanim.play.menus import DOORS, OFFERS
     from linkanim.share.page import packaged, page_words, script_words
 
     for name, toggle in TOGGLES.items():
         for words in (toggle.title, *toggle.answers):
             yield Sentence(None, words, None, f"TOGGLES[{name!r}]")
+    yield from (Sentence("game", door.text, None, "DOORS") for door in (*DOORS, *OFFERS))
+    yield from (Sentence(None, kind, None, "KINDS") for kind in KINDS)
+    for name in level_names():
+        level = level_of(name)
+        yield from (Sentence(None, words, None, f"level {name}") for words in (level.title, level.about))
     for file in ("page.html", "index.html"):
         yield from (Sentence(None, words, None, f"share/{file}") for words in page_words(packaged(file)))
     for file in ("lengths.js", "page.js"):
@@ -87,7 +95,19 @@ _USUAL = (
     *(f"{nth} {noun}" for nth in ("second", "third", "4th") for noun in ("coupler", "rocker", "crank")),
     *("second driven crank", "third driven crank", "second input rocker"),
     *("crank", "coupler", "rocker", "rod", "slider", "spring", "damper", "cylinder", "ground"),
-    *("upper", "lower", "left", "right", "large", "small", "short", "upright", "driven link", "input"),
+    *(
+        "upper",
+        "lower",
+        "left",
+        "right",
+        "large",
+        "small",
+        "short",
+        "upright",
+        "driven link",
+        "input",
+        "output",
+    ),
 )
 
 

@@ -32,6 +32,7 @@ from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown as quoted
+from linkanim.words import said
 
 _CONSTRUCTION = (960, 640)
 """The size of the figure of a construction, in pixels."""
@@ -79,20 +80,20 @@ def run(options: Namespace) -> None:
 def _figure(solution: Solution) -> str:
     if not solution.loops:
         return ""
-    drawn = embedded(vectors_svg(solution), f"Vector loops of {solution.title}")
+    drawn = embedded(vectors_svg(solution), said("Vector loops of {title}", title=solution.title))
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
 def _dimensioned(solution: Solution) -> str:
     figured = dimensioned(solution.request.scene, solution.phase)
-    drawn = embedded(figured.document(), f"{solution.title}: dimensions")
+    drawn = embedded(figured.document(), said("{title}: dimensions", title=solution.title))
     return f"<figure class='vectors'>{drawn}</figure>"
 
 
 def _free(solution: Solution) -> str:
     # on a phone it is not so small that it cannot be read, and is moved sideways
     least = f"min-width: {_PANEL * min(len(panels(solution)), 3)}px"
-    drawn = embedded(free_bodies_svg(solution), f"Free bodies of {solution.title}", least)
+    drawn = embedded(free_bodies_svg(solution), said("Free bodies of {title}", title=solution.title), least)
     return f"<figure class='vectors'>{drawn}</figure>"
 
 

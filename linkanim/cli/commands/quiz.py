@@ -18,6 +18,7 @@ from linkanim.play.question import QuizQuestion
 from linkanim.play.quiz import as_html, as_text, questions
 from linkanim.scenes import chapter_of, chapters, load, names
 from linkanim.scenes.scene import Scene
+from linkanim.words import said, said_many
 
 _MOST = 200
 
@@ -25,7 +26,11 @@ Printer = Callable[[Sequence[QuizQuestion], str, Callable[[int, int], None]], by
 
 
 def _sheet(asked: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None]) -> bytes:
-    return as_html(asked, f"{title}: {len(asked)} questions", progress).encode()
+    return as_html(
+        asked,
+        said("{title}: {part}", title=title, part=said_many("one question", "{count} questions", len(asked))),
+        progress,
+    ).encode()
 
 
 def _moodle(asked: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None]) -> bytes:
@@ -78,7 +83,8 @@ def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
     rounds: dict[str, list[QuizQuestion]] = {}
     for question in asked:
         chapter = chapter_of(question.scene.name)
-        rounds.setdefault(chapter[:1].upper() + chapter[1:] if chapter else title, []).append(question)
+        heading = said(chapter or "")
+        rounds.setdefault(heading[:1].upper() + heading[1:] if chapter else title, []).append(question)
     return rounds
 
 
@@ -96,17 +102,17 @@ def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
 def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
     """Return the scenes of a chapter (with spaces or dashes in its name), all, or one scene; and a title."""
     if name == ALL:
-        return tuple(map(load, names())), "All mechanisms"
+        return tuple(map(load, names())), said("All mechanisms")
     by_name = {chapter.replace(" ", "-"): names for chapter, names in chapters().items()}
     chosen = by_name.get(name.replace(" ", "-"))
     if chosen is None:
         scene = load(name)
-        return (scene,), scene.title
-    return tuple(map(load, chosen)), name.replace("-", " ").capitalize()
+        return (scene,), said(scene.title)
+    return tuple(map(load, chosen)), said(name.replace("-", " ")).capitalize()
 
 
 def _as_object(question: QuizQuestion) -> dict[str, object]:
-    answers, slips, _, curves = zip(*question.answers, strict=True)
+    answers, slips, _, curves, _ = zip(*question.answers, strict=True)
     document = {"scene": question.scene.name, "kind": question.kind, "phase": question.phase}
     document |= {
         "subject": question.subject,
