@@ -14,11 +14,15 @@ from pathlib import Path
 import pytest
 
 from linkanim.picture.look import Look
+from linkanim.player.action import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
 from linkanim.recorder import processes
 from linkanim.recorder import recording as recorder
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.processes import drawing, processes_for
 from linkanim.recorder.recording import SceneFrames, write
+from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere one process draws")
@@ -159,3 +163,28 @@ def test_a_recording_has_the_same_bytes_whatever_draws_it(
         write(SceneFrames(scene, plan, (64, 36), Look()), plan, folder / f"out.{form}")
         made.append([file.read_bytes() for file in sorted(folder.glob(f"*.{form}"))])
     assert made[0] == made[1] == made[2]
+
+
+def test_a_tape_has_the_same_frames_whatever_draws_them() -> None:
+    """Its states follow from one another, so each process goes through all of them and draws its own."""
+    actions = {
+        2: ("names", None),
+        5: ("zoom", (1.0, 0.1, 0.0)),
+        8: ("edit", None),
+        12: ("move", 1),
+        16: ("edit", None),
+        20: ("theme", None),
+    }
+    noted = tuple((frame, Action(*action)) for frame, action in actions.items())
+    tape = Tape(begin("crank-rocker"), 45, noted)
+    size, frames = (160, 90), 18
+
+    def all_by(number: int) -> list[bytes]:
+        draw = TapeFrames(tape, 25.0, size).draw
+        with drawing(draw, frames, 4 * size[0] * size[1], number) as one:
+            return [bytes(one(frame)) for frame in range(frames)]
+
+    alone = all_by(0)
+    assert len({*alone}) > frames - 3, "frames of a motion differ"
+    assert all_by(2) == alone
+    assert all_by(3) == alone
