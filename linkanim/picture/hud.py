@@ -574,7 +574,7 @@ def _classes(
 ) -> Iterator[list[str]]:
     """Yield the lines of the scenes' classes, the first scene's first."""
     for scene in scenes:
-        yield type_.wrapped(beyond_title(title, scene.info.class_name), size, width)
+        yield type_.wrapped(beyond_title(title, scene.info.class_said), size, width)
 
 
 def _key_width(layout: Layout, type_: Type) -> float:

@@ -19,7 +19,7 @@ from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import box, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
-from linkanim.words import said
+from linkanim.words import said, to_say
 
 # What all lists have: a title, rows with a bar behind the chosen one, words below.
 
@@ -130,7 +130,7 @@ class Panel(ListPanel):
     """
 
     rows: tuple[EditRow, ...]
-    title: str = "Edit dimensions"
+    title: str = to_say("Edit dimensions")
     facts: tuple[str, ...] = ()
     flash: float = 0.0
     error: str | None = None
@@ -159,7 +159,7 @@ class Panel(ListPanel):
         room = board.layout.lists.width - 2.4 * size
         lines = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
         foot = [(line, board.theme.warning) for line in board.type.wrapped(self.error or "", size, room)]
-        foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
+        foot += [(line, board.theme.dim) for line in board.type.wrapped(said(hint), size, room, gap="   ")]
         left = int(_room(board, size) - len(foot) - len(lines))
         return _Division(size, lines, foot, around(len(self.rows), self._at or 0, left))
 
@@ -172,7 +172,7 @@ class Panel(ListPanel):
         """Draw the title, the number of the chosen row, and the facts, lit up while they flash."""
         size, chosen = parts.size, self._at
         count = "" if chosen is None or not self.counted else _numbered(chosen, self.rows)
-        board.head(sheet, size, self.title, count, board.theme.ink)
+        board.head(sheet, size, said(self.title), count, board.theme.ink)
         if self.flash > 0.0 and parts.facts:
             lit = mixed(board.theme.panel, ORANGE, _FLASH * self.flash)
             board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(parts.facts))
@@ -223,7 +223,7 @@ class Quantities(ListPanel):
     chosen: int
     typed: str = ""
     hint: str = ""
-    title: str = "Quantities"
+    title: str = to_say("Quantities")
     boxes: tuple[bool, ...] = ()
 
     @property
@@ -233,7 +233,7 @@ class Quantities(ListPanel):
     def _divided(self, board: Board) -> _Division:
         """Return as many rows as the window has room for, and the hint, if there is room for it."""
         size = board.layout.small_size
-        hint = board.type.wrapped(self.hint, size, board.layout.lists.width - 2.4 * size, gap="   ")
+        hint = board.type.wrapped(said(self.hint), size, board.layout.lists.width - 2.4 * size, gap="   ")
         room = int(_room(board, size))
         hint = hint if room - len(hint) >= _FEWEST else []
         rows = around(len(self.rows), self.chosen, room - len(hint))
@@ -243,7 +243,9 @@ class Quantities(ListPanel):
         """Write what is typed, else the title, and the number of the chosen row."""
         size = parts.size
         count = _numbered(self.chosen, self.rows) if self.rows else "0"
-        typed = (f"{self.typed}_", board.theme.velocity) if self.typed else (self.title, board.theme.ink)
+        typed = (
+            (f"{self.typed}_", board.theme.velocity) if self.typed else (said(self.title), board.theme.ink)
+        )
         board.head(sheet, size, typed[0], count, typed[1])
         if not self.rows:
             at = (1.2 * size, parts.top * size)

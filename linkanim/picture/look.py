@@ -12,6 +12,7 @@ from typing import Any, Literal, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import LENGTH_UNITS
+from linkanim.words import said
 
 ThemeName = Literal["light", "dark"]
 Material = Literal["lit", "flat"]
@@ -288,5 +289,6 @@ def answer(before: Look, after: Look, name: str) -> str | None:
     if was == now:
         return None
     if isinstance(now, frozenset):
-        return next(words[one] if one in now else f"no {words[one]}" for one in was ^ now)
-    return words[now]
+        one = next(iter(was ^ now))
+        return said(words[one]) if one in now else said("no {shown}", shown=said(words[one]))
+    return said(words[now])

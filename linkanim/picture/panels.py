@@ -23,6 +23,7 @@ from linkanim.picture.overlay import Button, Help, Overlay
 from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc, stroke
 from linkanim.picture.view import Rect
+from linkanim.words import said, said_as
 
 # What is said in passing: one sheet of words in the caption's slot.
 
@@ -103,11 +104,15 @@ _LEAST = 9
 
 
 class _Line(NamedTuple):
-    """A line of a column: a subject, or a key and what it does; an empty line separates subjects."""
+    """A line of a column: a subject, or a key and what it does; an empty line separates subjects.
+
+    It is `of` the keys as the table has them.
+    """
 
     keys: str
     does: str
     heading: bool = False
+    of: str = ""
 
 
 class _Column(NamedTuple):
@@ -139,7 +144,7 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> DrawnSheet:
         wide = column.keys + column.does + _HELP_GAP * size
         for n, line in enumerate(column.lines):
             _draw(board, sheet, column, line, (left, (0.9 + _STEP * n) * size), size)
-            keys = line.keys or keys  # the text of a line may be broken; only its first part has the keys
+            keys = line.of or keys  # the text of a line may be broken; only its first part has the keys
             if line.does and not line.heading:
                 place = Rect(left, (0.9 + (n - 0.12) * _STEP) * size, wide, _STEP * size)
                 targets.append(Target("line", place, keys))
@@ -186,7 +191,11 @@ def _two_columns(groups: Help) -> list[tuple[_Line, ...]]:
     An empty line is below each subject except the last of a column.
     """
     blocks = [
-        (_Line(subject.capitalize(), "", heading=True), *(_Line(*line) for line in lines), _Line("", ""))
+        (
+            _Line(said_as("subject", subject).capitalize(), "", heading=True),
+            *(_Line(said(keys), said(does), of=keys) for keys, does in lines),
+            _Line("", ""),
+        )
         for subject, lines in groups
     ]
     if len(blocks) == 1:

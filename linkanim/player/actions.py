@@ -49,6 +49,7 @@ from linkanim.player.state import (
 from linkanim.scenes.editing import other_closure
 from linkanim.scenes.scene import Scene
 from linkanim.units import LENGTH_UNITS
+from linkanim.words import name_said, said, sentences, to_say
 
 # Actions on the look: what is shown beside the linkage, in which theme, and how near.
 
@@ -202,19 +203,25 @@ def go(state: State, _: None) -> State:
     try:
         value = float(text)
     except ValueError:
-        return with_toast(state, f"{text} is no number")
+        return with_toast(state, said("{text} is no number", text=text))
     place = radians(value) if scene.linkage.drive.coordinate.is_angle else value
     if not isfinite(place) or not mechanism.comes_to(place):
         unit = scene.linkage.drive.coordinate.shown_unit(f" {scene.length_unit}")
         reach = scene.info.ranges("{}…{}", lambda end: driven_words(scene, end))
-        return with_toast(state, f"the {scene.info.input_name} does not reach {text}{unit}; it goes {reach}")
+        words = said(
+            "the {link} does not reach {place}; it goes {reach}",
+            link=name_said(scene.info.input_name),
+            place=f"{text}{unit}",
+            reach=reach,
+        )
+        return with_toast(state, words)
     phase = mechanism.phase_of(place, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
 
 
 # Actions that the window carries out: the state only says so, in its effects.
 
-_MEANT = "recording: Q again ends it, writes it and quits"
+_MEANT = to_say("recording: Q again ends it, writes it and quits")
 
 
 def back(state: State, _: None) -> State:
@@ -234,13 +241,13 @@ def back(state: State, _: None) -> State:
         return replace(state, lesson=None)
     if state.from_title and state.games:
         return with_effect(state, "begin", "title")
-    return with_toast(state, "Q quits")
+    return with_toast(state, said("Q quits"))
 
 
 def quit_(state: State, _: None) -> State:
     """Ask for the window's end; while something is recorded, only when asked twice."""
     if state.recording and (state.toast is None or state.toast.text != _MEANT):
-        return with_toast(state, _MEANT)
+        return with_toast(state, said(_MEANT))
     return building.closing(state) or with_effect(state, "quit")
 
 
@@ -262,7 +269,9 @@ def save_as(state: State, _: None) -> State:
 def _saved(state: State, asked: tuple[str, str | None]) -> State:
     missing = state.building.building.made.missing if state.building else ""
     if missing:
-        return with_toast(state, f"only what can move can be saved; the draft is kept. {missing}")
+        return with_toast(
+            state, sentences(said("only what can move can be saved; the draft is kept."), missing)
+        )
     return with_effect(state, *asked)
 
 
@@ -295,7 +304,7 @@ BESIDE = (
 def play(state: State, words: str) -> State:
     """Begin a game, or the title, by its words; BadInput where they name none."""
     if state.games is None:
-        return with_toast(state, "there are no games in this window; the program's own has them")
+        return with_toast(state, said("there are no games in this window; the program's own has them"))
     game = state.games(words)
     if state.beneath is None:
         state = drop(leave_sketch(state), None)
@@ -342,7 +351,7 @@ def _speed(_: State, after: State) -> str:
 
 def _direction(_: State, after: State) -> str:
     """Say which way the phase runs."""
-    return "forward" if after.clock.direction > 0 else "reverse"
+    return said("forward") if after.clock.direction > 0 else said("reverse")
 
 
 def _position(before: State, after: State) -> str | None:
@@ -352,17 +361,20 @@ def _position(before: State, after: State) -> str | None:
 
 def _returns(_: State, after: State) -> str:
     """Say on which closure the input comes back."""
-    return f"back on the {'same' if after.scene.mechanism.retraced else 'other'} closure"
+    retraced = after.scene.mechanism.retraced
+    return said("back on the same closure") if retraced else said("back on the other closure")
 
 
 def _chart(before: State, after: State) -> str | None:
     """Say what is charted now, or that it is charted no longer."""
     was, now = (chart_tokens(one.scene, one.look.chart) for one in (before, after))
     if was == now or not now:
-        return None if was == now else "no chart"
+        return None if was == now else said("no chart")
     new = next((token for token in now if token not in was), None)
     gone = next((token for token in was if token not in now), now[0])
-    return quantity(after.scene, new).words if new else f"no {quantity(after.scene, gone).words}"
+    if new:
+        return quantity(after.scene, new).words
+    return said("no {shown}", shown=quantity(after.scene, gone).words)
 
 
 def _zoom(_: State, after: State) -> str:
@@ -439,10 +451,10 @@ ACTIONS: Mapping[str, Rule] = {
     # to (x, y) of the scene as shown, in such parts of a nudge's step
     "carry": Rule(rules.numbers(3), edits.carry),
     "drop": Rule(rules.nothing, edits.drop),
-    "undo": Rule(rules.nothing, edits.undo, answer=rules.stuck("nothing to undo")),
+    "undo": Rule(rules.nothing, edits.undo, answer=rules.stuck(to_say("nothing to undo"))),
     "reset": Rule(rules.nothing, edits.reset),
     "returns": Rule(rules.nothing, edits.returns, answer=_returns),
-    "redo": Rule(rules.nothing, edits.redo, answer=rules.stuck("nothing to redo")),
+    "redo": Rule(rules.nothing, edits.redo, answer=rules.stuck(to_say("nothing to redo"))),
     "dial_on": Rule(rules.whole, making.along),  # so many steps further
     "play": Rule(rules.text, play),  # a game's words
     # what games have in common; each says what they do in it

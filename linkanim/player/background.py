@@ -31,6 +31,7 @@ from linkanim.scenes.toml import content
 from linkanim.synthesis.follower import Follow, FollowPoses, Reply, Request, lines_of
 from linkanim.synthesis.guidance import USUAL_WEIGHT
 from linkanim.units import shown
+from linkanim.words import said, said_many, spoken
 
 # The search for linkages for a sketch: a process beside the window, and its replies as actions.
 
@@ -175,7 +176,7 @@ class Making:
         self._room.cleanup()
 
     def _reason(self) -> str:
-        lines = self._text(self._log).strip().splitlines() or ["the search for layers has ended"]
+        lines = self._text(self._log).strip().splitlines() or [said("the search for layers has ended")]
         return lines[-1].removeprefix("linkanim: ")
 
     def _text(self, log: BinaryIO) -> str:
@@ -216,7 +217,11 @@ class Rendering:
             return f"{self.target}: {share}"
         if code == 0:
             return where(self.target)
-        reason = tail.strip().splitlines()[-1] if tail.strip() else f"the process ended with code {code}"
+        reason = (
+            tail.strip().splitlines()[-1]
+            if tail.strip()
+            else said("the process ended with code {code}", code=code)
+        )
         return f"{self.target}: {reason.removeprefix('linkanim: ')}"
 
     def close(self) -> None:
@@ -245,7 +250,7 @@ def kept_at(place: str) -> Kept:
     """
     target = typed_path(place)
     if reason := intake.unnameable(target.name):
-        raise BadInput(f"{shown(target.name)}: {reason}; type another name")
+        raise BadInput(said("{file}: {reason}; type another name", file=shown(target.name), reason=reason))
     kept = Kept(target.with_name(f"{target.stem}{tape_file.SUFFIX}"), target)
     if checked_folder(target.parent).is_dir():
         for path in (kept.target, kept.tape):
@@ -255,7 +260,7 @@ def kept_at(place: str) -> Kept:
 
 def _ours(path: Path) -> Output:
     """Return an output that is written over only while it is as this program wrote it."""
-    return Output(path, named=False, way_out="type another name")
+    return Output(path, named=False, way_out=said("type another name"))
 
 
 class Queue:
@@ -281,7 +286,7 @@ class Queue:
             from_anywhere(str(one.target)) for one in (kept_at(place), self._running, *self._waiting) if one
         )
         if own in under_way:
-            raise BadInput(f"{own} is being written; type another name")
+            raise BadInput(said("{file} is being written; type another name", file=own))
 
     def news(self) -> tuple[str, ...]:
         """Say how far the present rendering is, and how many wait; when it is done, begin the next."""
@@ -296,7 +301,8 @@ class Queue:
             except WorkFailed as error:
                 words = f"{words} · {error}"
         wait = len(self._waiting)
-        return (f"{words} · {wait} {'wait' if wait > 1 else 'waits'}" if wait else words,)
+        waits = said_many("{count} waits", "{count} wait", wait)
+        return (f"{words} · {waits}" if wait else words,)
 
     def close(self) -> None:
         """Leave the waiting recordings to a process that renders them in turn; the present one goes on."""
@@ -327,7 +333,14 @@ def render(kept: Kept) -> Rendering:
     target = kept.target
     size = ("--size", kept.size) if kept.size else ()
     where_to = ("--no-clobber", "-o", str(target))
-    command = child.module("linkanim", "record", str(kept.tape), *size, *where_to, "--progress")
+    command = child.module(
+        "linkanim",
+        "record",
+        str(kept.tape),
+        *size,
+        *where_to,
+        "--progress",
+    )
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering runs
     log = Path(name).open("rb", buffering=0)  # noqa: SIM115
@@ -355,6 +368,6 @@ def _start(command: list[str], log: int, out: int = subprocess.DEVNULL) -> subpr
         stdin=subprocess.DEVNULL,
         stdout=out,
         stderr=log,
-        env=child.env(),
+        env={**child.env(), "LANGUAGE": spoken()},
         start_new_session=True,
     )

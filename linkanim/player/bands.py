@@ -22,6 +22,7 @@ from linkanim.player.making import Construction
 from linkanim.player.state import Mode, Rule, State, with_toast
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
+from linkanim.words import name_said, said, said_as
 
 if TYPE_CHECKING:
     from linkanim.scenes.deviation import Off, Tolerance
@@ -118,20 +119,26 @@ class ToleranceBand(Mode):
         times, joints = by / tolerance.by, scene.linkage.by_name
         edges = tuple(_edges(scene, off, times) for off in tolerance.quantities if off.name in joints)
         first, *others = (_in_words(scene, off, times) for off in tolerance.quantities)
-        facts = "; ".join([f"chiefly by {tolerance.most(tolerance.quantities[0])}", *others])
-        sentence = f"each length ± {significant(by, 3)} {scene.length_unit}: {first}"
+        most = said("chiefly by {dimension}", dimension=tolerance.most(tolerance.quantities[0]))
+        facts = said_as("list of clauses", "; ").join([most, *others])
+        length = f"{significant(by, 3)} {scene.length_unit}"
+        sentence = said("each length ± {length}: {effect}", length=length, effect=first)
         return replace(over, band=BandShown(edges, sentence, (facts,)))
 
 
 def _in_words(scene: Scene, off: Off, times: float) -> str:
     """Return how far a quantity may be off, in words."""
     most, unit = times * off.worst, scene.length_unit
-    said = f"{significant(math.degrees(most), 3)}°" if off.is_angle else f"{significant(most, 3)} {unit}"
+    far = f"{significant(math.degrees(most), 3)}°" if off.is_angle else f"{significant(most, 3)} {unit}"
     if off.name in scene.linkage.by_name:
-        return f"{off.name} up to {said} off"
+        return said("{joint} up to {distance} off", joint=off.name, distance=far)
     bodies = [body.name for body in scene.linkage.bodies]
-    name = f"{'angle' if off.is_angle else 'travel'} of {off.name}" if off.name in bodies else off.name
-    return f"the {name} up to {said}"
+    if off.name not in bodies:
+        return said("the {quantity} up to {range}", quantity=said(off.name), range=far)
+    link = name_said(off.name)
+    if off.is_angle:
+        return said("the angle of {link} up to {range}", link=link, range=far)
+    return said("the travel of {link} up to {range}", link=link, range=far)
 
 
 @lru_cache(maxsize=16)

@@ -86,6 +86,7 @@ from linkanim.player.state import (
 from linkanim.scenes.editing import Dimension, in_unit, other_closure
 from linkanim.scenes.editing import dimensions as dimensions_of
 from linkanim.units import shown
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.player.hand import Gesture, Hand, Outside
@@ -115,8 +116,8 @@ _OFF_THE_SHEET = frozenset(
 """Actions for which the sheet is left first."""
 _IN_THE_LIST = frozenset({"closure", "reset", "returns"})
 """Those of these actions that stay on the sheet while the list of dimensions is open on it."""
-LOST = "the draft is not saved: Ctrl+S saves it; press again to begin anew"
-_MEANT = "the draft is not saved: Ctrl+S saves it; press again to close, and it is offered next time"
+LOST = to_say("the draft is not saved: Ctrl+S saves it; press again to begin anew")
+_MEANT = to_say("the draft is not saved: Ctrl+S saves it; press again to close, and it is offered next time")
 
 
 def build(state: State, _: None) -> State:
@@ -152,7 +153,7 @@ def numbers(state: State, _: None) -> State:
     if sheet is None:
         return state
     if not rows_of_all(sheet.building.draft):
-        return with_toast(state, BLANK)
+        return with_toast(state, said(BLANK))
     bare = replace(state.unlisted, editing=cleared(replace(state.editing, drafts=())), held=None)
     return bare.without(SheetNumbers) if state.edits_dimensions else bare.with_mode(SheetNumbers())
 
@@ -166,7 +167,7 @@ def _anew(state: State, make: Callable[[], Building]) -> State:
     """Return the state with another sheet; where a draft is in no file, only when asked once more."""
     sheet = state.sheet
     if sheet and not (sheet.is_written or sheet.warned or _is_undone_to(state, sheet)):
-        return with_toast(replace(state, sheet=replace(sheet, warned=True)), LOST)
+        return with_toast(replace(state, sheet=replace(sheet, warned=True)), said(LOST))
     building = make()
     return _opened(replace(leave_sheet(state), sheet=None), building, known=True)
 
@@ -275,7 +276,7 @@ def closing(state: State) -> State | None:
     sheet = state.sheet
     if sheet is None or sheet.is_written or sheet.closes:
         return None
-    return with_toast(replace(state, sheet=replace(sheet, closes=True)), _MEANT)
+    return with_toast(replace(state, sheet=replace(sheet, closes=True)), said(_MEANT))
 
 
 def put(state: State, place: int) -> State:
@@ -470,9 +471,9 @@ def _spanned(state: State, sheet: BuildSheet, grip: Grip) -> State:
     """Take a point of the photograph, or a second one, whose distance from the first is then typed."""
     second = sheet.anchor is not None and sheet.span is None and dist(sheet.anchor, grip.begin) > grip.reach
     how = (
-        "Type the true distance between the two, then Enter"
+        said("Type the true distance between the two, then Enter")
         if second
-        else "Now click a point at a known distance"
+        else said("Now click a point at a known distance")
     )
     building = replace(choosing(grip.base, None), sentence=how, is_refusal=False)
     places = {"span": grip.begin} if second else {"anchor": grip.begin, "span": None}
@@ -888,7 +889,9 @@ def _panel_of_draft(building: Building) -> Panel:
     draft, at = building.draft, chosen_row(building)
     rows = (
         EditRow(
-            subscripted_words(f"{called(draft, one.thing)}, {one.row.label}"),
+            subscripted_words(
+                said("{part}, {property}", part=called(draft, one.thing), property=one.row.label)
+            ),
             stated(one.row, building, n == at),
             chosen=n == at,
             draft=n == at and building.typed != "",
@@ -988,8 +991,8 @@ class OpenSheet(Mode):
         "trace_on": Rule(rules.nothing, trace),
         "drive_by": Rule(rules.nothing, drive),
         "motor": Rule(rules.hand, motor),  # (x, y), how near counts as on it, the step of what is drawn
-        "undo_sheet": Rule(rules.nothing, undo, answer=rules.stuck("nothing to undo")),
-        "redo_sheet": Rule(rules.nothing, redo, answer=rules.stuck("nothing to redo")),
+        "undo_sheet": Rule(rules.nothing, undo, answer=rules.stuck(to_say("nothing to undo"))),
+        "redo_sheet": Rule(rules.nothing, redo, answer=rules.stuck(to_say("nothing to redo"))),
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"aim": _aim, "enter": _enter}
     has_head, has_tools, is_sheet, is_paper = True, True, True, True

@@ -30,12 +30,13 @@ from linkanim.player.keys import (
 from linkanim.player.state import BLANK, MOUSE_FRAMES, Game, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
+from linkanim.words import name_said, said, to_say
 
 _FADING = 24
 """The frames over which the bar fades out."""
 
 
-_NONE_YET, _NO_CHANGE = "there is no linkage to keep yet", "there is nothing to undo"
+_NONE_YET, _NO_CHANGE = to_say("there is no linkage to keep yet"), to_say("there is nothing to undo")
 _SCENE = (
     BarEntry("shelf", Action("shelf"), 1),
     *MOVING_BAR,
@@ -126,7 +127,7 @@ def _button(state: State, handle: BarEntry) -> Button:
     icon = _ICONS[handle.icon](state) if handle.icon in _ICONS else handle.icon
     on = action in _ON and _ON[action](state)
     reason = lack(state, action)
-    return Button(icon, name, key, handle.rank, handle.leads, on, reason, share, handle.on_chart)
+    return Button(icon, said(name), key, handle.rank, handle.leads, on, reason, share, handle.on_chart)
 
 
 @lru_cache(maxsize=256)
@@ -149,7 +150,7 @@ def _meant(state: State, action: Action) -> Action:
 
 def lack(state: State, action: Action) -> str:
     """Say why a command cannot be done in the state as it is; empty where it can."""
-    return _LACKS[action](state) if action in _LACKS else ""
+    return said(_LACKS[action](state)) if action in _LACKS else ""
 
 
 # Menus: all commands, or those of the thing under the hand.
@@ -158,7 +159,7 @@ def lack(state: State, action: Action) -> str:
 class ListRow(NamedTuple):
     """A row of a list: its words, the key that does the same, its action; texts by which it is found.
 
-    Without these it is found by its words and its key.
+    Without these it is found by its words and its key. A command is found by its English name, too.
     """
 
     words: str
@@ -193,12 +194,15 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     "chosen", the chosen thing of a sheet; "joint", "link" or "strut" with a name; "things", all that have
     commands; or "keys" with the keys of a line of the help.
     """
-    usual = {action: ListRow(words, key, action) for words, key, action in commands(state.keys)}
+    usual = {
+        action: ListRow(said(words), key, action, (said(words), key, words))
+        for words, key, action in commands(state.keys)
+    }
     if what is None or what in GROUPS:
         return _of_mode(state, usual, what)
     if what == "things":
-        rows = tuple(ListRow(one, "", Action("menu", one)) for one in things(state.scene))
-        return Entries("Joints and links", rows)
+        rows = tuple(ListRow(thing_said(one), "", Action("menu", one)) for one in things(state.scene))
+        return Entries(to_say("Joints and links"), rows)
     if what.startswith("keys "):
         keys = what.removeprefix("keys ")
         return Entries(keys, tuple(usual[one] for one in row_actions(state.keys, keys) if one in usual))
@@ -206,7 +210,8 @@ def menu_of(state: State, what: str | None) -> Entries | None:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
     rows = tuple(_of_thing(state, kind, name)) if what in things(state.scene) else ()
-    return Entries(what[:1].upper() + what[1:], (*rows, usual[Action("names")])) if rows else None
+    title = thing_said(what)
+    return Entries(title[:1].upper() + title[1:], (*rows, usual[Action("names")])) if rows else None
 
 
 def line_asks(mode: ModeKeys, keys: str) -> Action | None:
@@ -226,7 +231,7 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
             *(row for row in listed if row.action.name in BESIDE_GAMES),
         ]
     if group is None:
-        return Entries("Commands", tuple(listed))
+        return Entries(to_say("Commands"), tuple(listed))
     title, members = GROUPS[group]
     rows = (row for row in listed if row.action in members)
     named = _constructions(state) if group == "construction" else ()
@@ -238,18 +243,19 @@ def _of_game(state: State, game: Game, usual: Mapping[Action, ListRow]) -> Itera
     shown = game.shown(state, NOTHING_OVER)
     choices = shown.listed.choices if isinstance(shown.listed, GamePanel) else ()
     for n, choice in enumerate(choices):
-        yield ListRow(choice.text or f"answer {n + 1}", choice.key, Action("option", n))
+        yield ListRow(choice.text or said("answer {number}", number=n + 1), choice.key, Action("option", n))
     for n, spot in enumerate(shown.spots):
-        yield ListRow(f"the place {spot.key} on the picture", spot.key, Action("option", n))
+        yield ListRow(said("the place {key} on the picture", key=spot.key), spot.key, Action("option", n))
     for action in (*dict.fromkeys(bind.action for bind in state.keys.binds), Action("back")):
         if action.name != "option" and game.carried(state, action) is not state:
             kind = game.words.partition(" ")[0]
-            yield usual[action]._replace(words=_IN_ONE_GAME.get((kind, action), usual[action].words))
+            own = _IN_ONE_GAME.get((kind, action))
+            yield usual[action]._replace(words=said(own)) if own else usual[action]
 
 
 _IN_ONE_GAME: Mapping[tuple[str, Action], str] = {
-    ("menu", Action("turn", -1)): "a level down",
-    ("menu", Action("turn", 1)): "a level up",
+    ("menu", Action("turn", -1)): to_say("a level down"),
+    ("menu", Action("turn", 1)): to_say("a level up"),
 }
 """Other names of commands in particular games."""
 
@@ -260,7 +266,7 @@ def _constructions(state: State) -> Iterator[ListRow]:
         from linkanim.picture.constructed import NAMES, kinds_of
 
         for number, kind in enumerate(kinds_of(state.scene)):
-            yield ListRow(NAMES[kind], "" if number else "F7", Action("construction", kind))
+            yield ListRow(said(NAMES[kind]), "" if number else "F7", Action("construction", kind))
 
 
 _CHOSEN: Mapping[str, tuple[Action, ...]] = {
@@ -276,6 +282,16 @@ _CHOSEN: Mapping[str, tuple[Action, ...]] = {
 """The commands of the thing under the hand that stand in the table."""
 
 
+def thing_said(thing: str) -> str:
+    """Return what one of the `things` is called."""
+    kind, _, name = thing.partition(" ")
+    return {
+        "joint": lambda: said("joint {name}", name=name),
+        "link": lambda: said("link {name}", name=name_said(name)),
+        "strut": lambda: said("strut {name}", name=name_said(name)),
+    }[kind]()
+
+
 def things(scene: Scene) -> tuple[str, ...]:
     """Return the things that have commands of their own: joints, links and struts, by kind and name."""
     linkage = scene.linkage
@@ -286,12 +302,12 @@ def things(scene: Scene) -> tuple[str, ...]:
 
 
 _CHARTED: Mapping[str, tuple[tuple[str, str], ...]] = {
-    "joint": (("velocity", "chart its speed"), ("acceleration", "chart its acceleration")),
+    "joint": (("velocity", to_say("chart its speed")), ("acceleration", to_say("chart its acceleration"))),
     "link": (
-        *(("angle", "chart its angle"), ("angular_velocity", "chart its angular velocity")),
-        *(("travel", "chart its travel"), ("travel_velocity", "chart its velocity")),
+        *(("angle", to_say("chart its angle")), ("angular_velocity", to_say("chart its angular velocity"))),
+        *(("travel", to_say("chart its travel")), ("travel_velocity", to_say("chart its velocity"))),
     ),
-    "strut": (("length", "chart its length"), ("force", "chart its force")),
+    "strut": (("length", to_say("chart its length")), ("force", to_say("chart its force"))),
 }
 """What can be charted of a thing: the end of the quantity's token, and the words."""
 
@@ -301,17 +317,18 @@ def _of_thing(state: State, kind: str, name: str) -> Iterator[ListRow]:
     scene = state.scene
     for end, words in _CHARTED[kind]:
         if f"{name}.{end}" in scene.quantities:
-            yield ListRow(words, "", Action("plot", f"{name}.{end}"))
+            yield ListRow(said(words), "", Action("plot", f"{name}.{end}"))
     bodies = {body.name: body.joints for body in scene.linkage.bodies}
     joints = (name,) if kind == "joint" else bodies.get(name, ()) if kind == "link" else ()
     if kind == "joint":
-        words = "stop tracing it" if name in scene.trace else "trace it"
+        words = said("stop tracing it") if name in scene.trace else said("trace it")
         yield ListRow(words, "", Action("trace_joint", name))
         if name in drives(scene):
-            yield ListRow("make it the drive", "", Action("drive_joint", name))
+            yield ListRow(said("make it the drive"), "", Action("drive_joint", name))
     sized = next((joint for joint in reversed(joints) if handles(scene, joint)), None)
     if sized:
-        words = "edit its place" if scene.linkage.joint(sized).bars == () else "edit its length"
+        placed = scene.linkage.joint(sized).bars == ()
+        words = said("edit its place") if placed else said("edit its length")
         yield ListRow(words, "", Action("edit_at", sized))
     if kind == "link":
         yield from _constructions(state)
@@ -355,14 +372,16 @@ def _nothing_moves(state: State) -> str:
 
 _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("play", "title door=play"): lambda state: (
-        "" if state.games else "there are no games in this window; the program's own has them"
+        "" if state.games else to_say("there are no games in this window; the program's own has them")
     ),
-    Action("trace"): lambda state: "" if state.scene.trace else "no joint of this mechanism is traced",
+    Action("trace"): lambda state: (
+        "" if state.scene.trace else to_say("no joint of this mechanism is traced")
+    ),
     Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else _NONE_YET,
     Action("take_back"): lambda state: "" if state.sketch and state.sketch.earlier else _NO_CHANGE,
     Action("undo_sheet"): lambda state: "" if state.building and state.building.building.past else _NO_CHANGE,
     Action("redo_sheet"): lambda state: (
-        "" if state.building and state.building.building.future else "there is nothing to redo"
+        "" if state.building and state.building.building.future else to_say("there is nothing to redo")
     ),
     Action("numbers"): _nothing_drawn,
     Action("pause"): _nothing_moves,

@@ -66,6 +66,7 @@ from linkanim.scenes.editing import (
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import metre, significant, typeset
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.player.hand import Gesture, Hand, Outside
@@ -181,7 +182,9 @@ def plot(state: State, token: str) -> State:
     if not token:
         return replace(state.unlisted, look=replace(state.look, chart=None))
     if token not in state.scene.quantities:
-        return with_toast(state, f"{state.scene.name} has no quantity {token}")
+        return with_toast(
+            state, said("{scene} has no quantity {quantity}", scene=state.scene.name, quantity=token)
+        )
     return replace(state.unlisted, look=replace(state.look, chart=token))
 
 
@@ -191,9 +194,14 @@ def strip(state: State, token: str) -> State:
     if token in charted:
         charted = tuple(one for one in charted if one != token)
     elif token not in state.scene.quantities:
-        return with_toast(state, f"{state.scene.name} has no quantity {token}")
+        return with_toast(
+            state, said("{scene} has no quantity {quantity}", scene=state.scene.name, quantity=token)
+        )
     elif len(charted) >= MOST_CHARTS:
-        return with_toast(state, f"there is room for {MOST_CHARTS} charts; a click on a title puts one away")
+        return with_toast(
+            state,
+            said("there is room for {count} charts; a click on a title puts one away", count=MOST_CHARTS),
+        )
     else:
         charted = (*charted, token)
     return replace(state, look=replace(state.look, chart=",".join(charted) or None))
@@ -211,7 +219,7 @@ def put(state: State, place: int) -> State:
 # Every change gives a new scene or a refusal; the last good scene always runs on. A joint that is dragged
 # while the list is open changes its lengths; each drag is one step of undo.
 
-AGAIN = "R again: the file's dimensions"
+AGAIN = to_say("R again: the file's dimensions")
 
 _KEY = r"^[\w.\[\]-]+( =|:) "
 _NUDGE = {
@@ -307,7 +315,7 @@ def edit_at(state: State, joint: str) -> State:
     """Open the list at the first dimension that follows a joint; say so where none does."""
     own = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
     if not own:
-        return with_toast(state, f"no dimension of its own places joint {joint}")
+        return with_toast(state, said("no dimension of its own places joint {joint}", joint=joint))
     state = state if state.edits_dimensions else edit(state, None)
     keys = [item.key for item in dimensions(state.scene)]
     return choose(replace(state, editing=replace(state.editing, chosen=keys.index(own[0].key))), 0)
@@ -341,14 +349,14 @@ def returns(state: State, _: None) -> State:
 
 def start(state: State, _: None) -> State:
     """Go back to the start; when asked again while the chip says so, to the file's dimensions as well."""
-    again = state.chip is not None and state.sketch is None and state.chip.text == AGAIN
+    again = state.chip is not None and state.sketch is None and state.chip.text == said(AGAIN)
     state = replace(reset(state, None) if again else state, chip=None)
     return replace(state, clock=state.clock.go(state.frame, 0.0))
 
 
 def way_back(_: State, after: State) -> str | None:
     """Say which key brings the file's dimensions back, where they were changed."""
-    return AGAIN if after.place in after.edited else None
+    return said(AGAIN) if after.place in after.edited else None
 
 
 def grab(state: State, joint: str) -> State:
@@ -519,7 +527,7 @@ def _tried(state: State, values: Mapping[Key, str], typed: str) -> State:
         reason = _reason(str(error).removeprefix(f"{scene.name}: "), values, scene)
         return replace(state, editing=replace(editing, typed=typed, refusal=reason, warned=False))
     if loss:
-        refusal = f"{loss} (Enter again takes it)"
+        refusal = said("{loss} (Enter again takes it)", loss=loss)
         return replace(state, editing=replace(editing, typed=typed, refusal=refusal, warned=True))
     drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
     return _remade(state, with_undo(replace(editing, drafts=drafts), scene), after)
@@ -542,11 +550,11 @@ def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
 
 # What is shown of the list, and what its tools and the mouse do.
 
-HINT = (
+HINT = to_say(
     "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
     "Ctrl+S save   Esc closes"
 )
-_DIRECTIONS = ("along", "to the left", "to the right", "x", "y")
+_DIRECTIONS = (to_say("along"), to_say("to the left"), to_say("to the right"), "x", "y")
 """The words at the end of the labels of places, and the opposite side's."""
 _STEPS = 12
 """The number of shades of a flash; each is drawn once."""
@@ -586,10 +594,14 @@ def measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLi
 
 def _worded(item: Dimension, digits: int) -> str:
     """Return a dimension's value; for a place on a body, its direction and the value without a sign."""
-    direction = item.label.rpartition(", ")[2]
+    ends = (
+        one for one in _DIRECTIONS if item.label.endswith(said("{name}, {part}", name="", part=said(one)))
+    )
+    direction = next(ends, "")
     if direction == "to the left" and item.value < 0:
         item, direction = replace(item, value=-item.value), "to the right"
-    return f"{direction} {_valued(item, digits)}" if direction in _DIRECTIONS else _valued(item, digits)
+    value = _valued(item, digits)
+    return said("{direction} {length}", direction=said(direction), length=value) if direction else value
 
 
 def _valued(item: Dimension, digits: int) -> str:
@@ -622,7 +634,7 @@ def panel_of(state: State, items: tuple[Dimension, ...], *, lit: bool) -> Panel:
     )
     return Panel(
         tuple(rows),
-        facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
+        facts=tuple(fact for fact in (info.class_said, info.grashof) if fact),
         flash=_flash(state),
         error=editing.refusal,
         hint=HINT,

@@ -27,6 +27,7 @@ from linkanim.scenes.files import in_its_form, opened
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content
 from linkanim.units import shown as quoted
+from linkanim.words import said, to_say
 
 # Files that the window writes, under free names, and the scene file with which it was opened.
 
@@ -134,8 +135,12 @@ class SceneFile:
             return []
         name = intake.named(self.path.name)
         if self._seen is None:
-            return [f"{name} is gone; the linkage runs on, and Ctrl+Shift+S writes it as a new file"]
-        return [f"{name} has changed; F5 loads it"]
+            return [
+                said(
+                    "{file} is gone; the linkage runs on, and Ctrl+Shift+S writes it as a new file", file=name
+                )
+            ]
+        return [said("{file} has changed; F5 loads it", file=name)]
 
     def load(self) -> Scene:
         """Read the file as it is now; errors as `scenes.files.opened`."""
@@ -167,11 +172,11 @@ class SavedScenes:
     def add(self, scene: Scene, name: str) -> Path:
         """Write a new scene file under a name; BadInput for a name that is taken or that no file can have."""
         if reason := intake.unnameable(name):
-            raise BadInput(f"{quoted(name)}: {reason}; type another name")
+            raise BadInput(said("{file}: {reason}; type another name", file=quoted(name), reason=reason))
         target = Path(from_anywhere(f"{name.removesuffix('.toml')}.toml"))
         path = atomic_files.checked_target(target, (".toml",))
         if os.path.lexists(path):
-            raise BadInput(f"{intake.named(path.name)} is there already; type another name")
+            raise BadInput(said("{file} is there already; type another name", file=intake.named(path.name)))
         data = content(in_its_form(_entitled(scene)), path.parent)
         self._wrote[path] = data
         return atomic_files.add(data, path)
@@ -181,7 +186,10 @@ class SavedScenes:
         with suppress(OSError):
             if path.read_bytes() != self._wrote.get(path):
                 raise BadInput(
-                    f"{intake.named(path.name)} was changed after it was saved; Ctrl+Shift+S writes another"
+                    said(
+                        "{file} was changed after it was saved; Ctrl+Shift+S writes another",
+                        file=intake.named(path.name),
+                    )
                 )
         data = content(in_its_form(_entitled(scene)), path.parent)
         atomic_files.write_text(path, data.decode("utf-8"))
@@ -196,12 +204,13 @@ def _entitled(scene: Scene) -> Scene:
 
 def where(path: Path) -> str:
     """Say that a file is saved, by its whole path."""
-    return f"{intake.named(from_anywhere(str(path)))} saved"
+    return said("{file} saved", file=intake.named(from_anywhere(str(path))))
 
 
 def open_folder(text: str) -> None:
     """Open the folder of the file that a text says is saved; do nothing for any other text."""
-    path = Path(text.partition(" saved")[0])
+    before, _, after = said("{file} saved", file="\0").partition("\0")
+    path = Path(text.removeprefix(before).partition(after)[0])
     if path.is_absolute() and path.exists():
         import webbrowser  # opens a local folder, without any network
 
@@ -241,7 +250,7 @@ def _date(seconds: float) -> str:
 
 _MOST = 100
 """The most windows that can have a draft at the same time."""
-_OFFER = "unsaved work has been kept: F2 restores it"
+_OFFER = to_say("unsaved work has been kept: F2 restores it")
 
 
 class DraftFile:
@@ -268,10 +277,10 @@ class DraftFile:
             aside = atomic_files.set_aside(path)
             if aside is None:
                 self.close()
-                raise WorkFailed(f"{error}; drafts are not kept") from None
-            return state, f"{error}; it is kept as {aside.name}"
+                raise WorkFailed(said("{error}; drafts are not kept", error=error)) from None
+            return state, said("{error}; it is kept as {file}", error=error, file=aside.name)
         self._kept = state.sheet.building.draft if state.sheet else None
-        return state, _OFFER
+        return state, said(_OFFER)
 
     def waits(self) -> bool:
         """Tell whether another window left a draft, which stays where it is."""
@@ -289,7 +298,9 @@ class DraftFile:
             return
         path = self._path or self._claimed(there=False)
         if path is None:
-            raise WorkFailed(f"{self._first}: {_MOST} windows have a draft; close one")
+            raise WorkFailed(
+                said("{file}: {count} windows have a draft; close one", file=self._first, count=_MOST)
+            )
         if draft is None or sheet is None:
             with atomic_files.saying_why(path, "removed"):
                 path.unlink(missing_ok=True)

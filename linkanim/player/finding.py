@@ -16,15 +16,16 @@ from linkanim.picture.overlay import searched
 from linkanim.picture.quantities import driven_words, quantity
 from linkanim.player import rules
 from linkanim.player.action import Action
-from linkanim.player.commands import Entries, ListRow, menu_of, things
+from linkanim.player.commands import Entries, ListRow, menu_of, thing_said, things
 from linkanim.player.keys import KeyRow, ModeKeys, TypedKeys, both, enter, on
 from linkanim.player.listing import Listing
 from linkanim.player.state import Rule, State
 from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant, typeset
+from linkanim.words import name_said, said, to_say
 
-_HINT = "type any words of it   ↑ ↓ choose   Enter does it   Esc closes"
+_HINT = to_say("type any words of it   ↑ ↓ choose   Enter does it   Esc closes")
 _SCENE_SHOWN = ("play", "paused", "edit")
 """The modes in which a mechanism is shown with all that belongs to it."""
 _TYPED = str.maketrans(
@@ -48,7 +49,11 @@ def _toggle(state: State, _: None) -> State:
     if state.of(Finder):
         return state.without(Finder)
     bare = state.unlisted.unhelped
-    return bare if bare.keys.alone else bare.with_mode(Finder(0, others=Entries("Find", tuple(_all(bare)))))
+    return (
+        bare
+        if bare.keys.alone
+        else bare.with_mode(Finder(0, others=Entries(to_say("Find"), tuple(_all(bare)))))
+    )
 
 
 def _all(state: State) -> Iterator[ListRow]:
@@ -63,9 +68,14 @@ def _all(state: State) -> Iterator[ListRow]:
         yield from _quantities(state.displayed)
     for place, entry in enumerate(state.shelf):
         name, title, chapter = searched(entry)
-        yield ListRow(title, "mechanism", Action("put", place), (name, title, chapter, "mechanism scene"))
+        yield ListRow(
+            title, said("mechanism"), Action("put", place), (name, title, chapter, "mechanism scene")
+        )
     if state.mode in _SCENE_SHOWN:
-        yield from (_row(one, "its commands", Action("menu", one)) for one in things(state.scene))
+        yield from (
+            _row(thing_said(one), said("its commands"), Action("menu", one), one)
+            for one in things(state.scene)
+        )
 
 
 def _row(words: str, key: str, action: Action, *more: str) -> ListRow:
@@ -80,29 +90,39 @@ def _facts(scene: Scene) -> Iterator[ListRow]:
     info = scene.info
     transmission = info.transmission
     for label, words in info.lines:
-        to = Action("note", f"{label}: {words}")
+        name = said(label)
+        to = Action("note", said("{label}: {words}", label=name, words=words))
         if label == "transmission angle" and transmission:
             to = Action("scrub", transmission.phase)
-        yield _row(label, words, to, "fact least" if label == "transmission angle" else "fact")
+        yield _row(name, words, to, "fact least" if label == "transmission angle" else "fact")
     ends = info.swing.dead_centres if info.swing else info.dead_centres
     for n, phase in enumerate(ends or (), start=1):
         place = scene.pose(phase, 0).coordinate
         where = driven_words(scene, place % tau if info.full_turn else place)
-        yield _row(f"dead centre {n} of {info.output_name}", where, Action("scrub", phase), "fact")
+        yield _row(
+            said("dead centre {number} of {link}", number=n, link=name_said(info.output_name)),
+            where,
+            Action("scrub", phase),
+            "fact",
+        )
 
 
 def _dimensions(state: State) -> Iterator[ListRow]:
     """Yield the scene's dimensions, with their values, to be edited."""
     for n, one in enumerate(dimensions(in_unit(state.scene, state.look.unit))):
         value = typeset(f"{significant(one.value, 6)} {one.unit}".strip())
-        yield _row(f"edit {one.label}", value, Action("edit_row", n), "dimension length")
+        yield _row(
+            said("edit {dimension}", dimension=one.label), value, Action("edit_row", n), "dimension length"
+        )
 
 
 def _quantities(scene: Scene) -> Iterator[ListRow]:
     """Yield the quantities that have a value in the scene, to be charted."""
     for token in scene.valued:
         one = quantity(scene, token)
-        yield _row(f"chart {one.words}", one.symbol, Action("plot", token), token, "quantity")
+        yield _row(
+            said("chart {quantity}", quantity=one.words), one.symbol, Action("plot", token), token, "quantity"
+        )
 
 
 @frozen

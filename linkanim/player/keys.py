@@ -10,6 +10,7 @@ from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Value
+from linkanim.words import to_say
 
 # The one key table: the window, the help overlay, `--help` and the manual all read it.
 #
@@ -530,9 +531,9 @@ class CommandGroup(NamedTuple):
 
 
 GROUPS: Mapping[str, CommandGroup] = {
-    "arrows": CommandGroup("Arrows", tuple(Action("vectors", kind) for kind in "vaf")),
+    "arrows": CommandGroup(to_say("Arrows"), tuple(Action("vectors", kind) for kind in "vaf")),
     "construction": CommandGroup(
-        "Construction",
+        to_say("Construction"),
         (
             Action("closure"),
             Action("polygons"),

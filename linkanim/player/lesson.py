@@ -34,6 +34,7 @@ from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content, parse
 from linkanim.units import angle, length, shown, significant
+from linkanim.words import said
 
 if TYPE_CHECKING:
     from linkanim.player.hand import Outside
@@ -286,7 +287,7 @@ class Lesson:
     def on(self, further: int) -> Action:
         """Return the action that shows the step so many steps further on; a note where there is none."""
         if not self.steps:
-            return Action("note", "there is no lesson yet; F8 keeps what is shown as its first step")
+            return Action("note", said("there is no lesson yet; F8 keeps what is shown as its first step"))
         self._at = min(max(self._at + further, 0), len(self.steps) - 1)
         return Action("stage", self.steps[self._at].text(self._at + 1, len(self.steps)))
 
@@ -296,21 +297,31 @@ class Lesson:
         The scene is named as in the catalogue, or by one of the `files` that hold it, else written beside.
         """
         if state.game or (state.sketch and state.sketch.is_blank) or not state.scene.document:
-            raise BadInput("a step of a lesson shows a mechanism; leave what is open first")
+            raise BadInput(said("a step of a lesson shows a mechanism; leave what is open first"))
         if state.building and state.building.building.made.missing:
-            raise BadInput(f"a step shows what moves; {state.building.building.made.missing}")
+            raise BadInput(
+                said("a step shows what moves; {missing}", missing=state.building.building.made.missing)
+            )
         if len(self.steps) >= MOST_STEPS:
-            raise BadInput(f"a lesson has at most {MOST_STEPS} steps")
+            raise BadInput(said("a lesson has at most {count} steps", count=MOST_STEPS))
         path = self._path or _free("lesson")
         if self._path and self._path.read_bytes().decode("utf-8") != self._text:
-            raise BadInput(f"{intake.named(self._path)} was changed meanwhile; open it, then keep the step")
+            raise BadInput(
+                said(
+                    "{file} was changed meanwhile; open it, then keep the step", file=intake.named(self._path)
+                )
+            )
         source, own = _source(state.scene, files, path)
         added = block(state, source, own, caption)
         text = f"{self._text.rstrip()}\n\n{added}" if self._text.strip() else added
         steps = (*self.steps, *_steps(parse(added, intake.named(path)), intake.named(path), path.parent))
         atomic_files.write_text(path, text)
         self._path, self._text, self.steps, self._at = path, text, steps, len(steps) - 1
-        return f"{intake.named(path)}: step {len(steps)} is kept; PgUp and PgDn show the steps"
+        return said(
+            "{file}: step {number} is kept; PgUp and PgDn show the steps",
+            file=intake.named(path),
+            number=len(steps),
+        )
 
 
 def _free(stem: str) -> Path:
@@ -412,4 +423,6 @@ class CaptionLine(Mode):
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the line in which the caption is typed."""
         del state
-        return replace(over, toast=f"Caption: {self.typed}_ · Enter keeps the step · Esc does not")
+        return replace(
+            over, toast=said("Caption: {typed}_ · Enter keeps the step · Esc does not", typed=self.typed)
+        )

@@ -22,14 +22,15 @@ from linkanim.player.keys import KeyRow, ModeKeys, TypedKeys, both, enter, on
 from linkanim.player.state import Mode, Resolver, Rule, State
 from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits, significant
+from linkanim.words import to_say
 
 if TYPE_CHECKING:
     from linkanim.player.hand import Gesture, Hand, Outside
     from linkanim.player.sight import Sight
 
 _LONGEST = 40
-_OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
-_HINT = "↑ ↓ choose   type to filter   Enter charts   Ctrl+Enter adds   Esc closes"
+_OTHERS_HINT = to_say("↑ ↓ choose   type to filter   Enter takes   Esc closes")
+_HINT = to_say("↑ ↓ choose   type to filter   Enter charts   Ctrl+Enter adds   Esc closes")
 _READ, _NEAR = 15, 80
 """How many frames a value stands, and how many rows near the chosen one have one."""
 

@@ -35,6 +35,7 @@ from linkanim.player.state import (
 )
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.units import significant
+from linkanim.words import said, said_many, sentences
 
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
@@ -130,8 +131,9 @@ def _slider(state: State) -> SliderShown | None:
     if member is None:
         return None
     least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
-    label = f"transmission {least}, best {best}"
-    return SliderShown(label, "short coupler", "long coupler", FAMILY, round(member.place * FAMILY))
+    label = said("transmission {least}, best {best}", least=least, best=best)
+    ends = said("short coupler"), said("long coupler")
+    return SliderShown(label, *ends, FAMILY, round(member.place * FAMILY))
 
 
 def construct(state: State, further: int) -> State:
@@ -188,7 +190,9 @@ def make(state: State, _: None) -> State:
     """Ask for the parts of the present scene to be written into a folder."""
     missing = state.building.building.made.missing if state.building else ""
     if missing:
-        return with_toast(state, f"only what can move can be made; the draft is kept. {missing}")
+        return with_toast(
+            state, sentences(said("only what can move can be made; the draft is kept."), missing)
+        )
     return with_effect(state, "make")
 
 
@@ -329,14 +333,23 @@ class Layering(Mode):
         is_own = self.scene is state.scene
         parts, refused = (self.parts, self.refused) if is_own else (None, "")
         if parts is None:
-            waits = f"{state.scene.title}: looking for layers in which it can turn"
+            waits = said("{title}: looking for layers in which it can turn", title=said(state.scene.title))
             return replace(over, head=Head(refused or waits, is_warning=bool(refused)))
-        times = "in true size" if parts.ratio == 1 else f"{significant(parts.ratio, 3)} times as large"
-        on = f"{parts.layers} layer{'s' * (parts.layers != 1)} on the ground"
-        facts = f"{len(parts.plates)} parts, {len(parts.pins)} pins, {times}", "Enter writes the parts"
-        slider = SliderShown("layers", "flat", "lifted", LIFTED, self.lifted)
+        times = said("in true size")
+        if parts.ratio != 1:
+            times = said("{number} times as large", number=significant(parts.ratio, 3))
+        on = said_many("{count} layer on the ground", "{count} layers on the ground", parts.layers)
+        counted = said(
+            "{parts} parts, {pins} pins, {size}", parts=len(parts.plates), pins=len(parts.pins), size=times
+        )
+        facts = counted, said("Enter writes the parts")
+        slider = SliderShown(said("layers"), said("flat"), said("lifted"), LIFTED, self.lifted)
         return replace(
-            over, drawn=(self,), alone="bare", head=Head(f"{self.scene.title}: {on}", facts), slider=slider
+            over,
+            drawn=(self,),
+            alone="bare",
+            head=Head(said("{title}: {part}", title=said(self.scene.title), part=on), facts),
+            slider=slider,
         )
 
     def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:

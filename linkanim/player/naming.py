@@ -12,6 +12,7 @@ from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.keys import BACK_BAR, BarEntry, KeyRow, ModeKeys, TypedKeys, enter, on
 from linkanim.player.state import Mode, Rule, State, with_effect
+from linkanim.words import said
 
 _LONGEST = 100
 
@@ -73,5 +74,6 @@ class Naming(Mode):
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the line in which the name is asked for."""
         del state
-        asked = f"Save as {self.name}_.toml · Enter writes it · Esc does not"
-        return replace(over, toast=f"{self.refusal}: {asked}" if self.refusal else asked)
+        asked = said("Save as {name}_.toml · Enter writes it · Esc does not", name=self.name)
+        refused = said("{cause}: {effect}", cause=self.refusal, effect=asked)
+        return replace(over, toast=refused if self.refusal else asked)

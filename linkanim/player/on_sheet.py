@@ -20,6 +20,7 @@ from linkanim.picture.text import subscripted_words
 from linkanim.player.state import BuildSheet, driven_bar
 from linkanim.scenes.scene import Scene
 from linkanim.units import short, significant, typeset
+from linkanim.words import said
 
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
@@ -37,7 +38,9 @@ def called(draft: Draft, thing: Thing) -> str:
     kind, name = thing[0].removesuffix("s"), thing[1]
     if thing[0] == JOINT:
         kind = next((word for word in _WORDS if name in draft.of(f"{word}s")), kind)
-    return "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
+    if thing[0] == "drive":
+        return said("input")
+    return name if name.startswith(kind) else said("{kind} {name}", kind=said(kind), name=name)
 
 
 def stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
@@ -169,7 +172,7 @@ class SheetDrawing:
         from linkanim.picture.sheet_rows import SheetRows
 
         rows = tuple((one.words, "") for one in sheet.offers)
-        return SheetRows("Tab, or a click: it may be", rows, sheet.meant, sheet.offered)
+        return SheetRows(said("Tab, or a click: it may be"), rows, sheet.meant, sheet.offered)
 
     @property
     def number(self) -> str:
@@ -200,12 +203,12 @@ class SheetDrawing:
             missing = building.made.missing
             return building.sentence or missing, (missing,) if building.sentence else ()
         info = self.scene.info
-        facts = (*filter(None, [info.grashof]), f"input {info.motion_words}")
+        facts = (*filter(None, [info.grashof]), said("input {motion}", motion=info.motion_words))
         if self.is_listed:
             return building.sentence, ()  # the list shows the rest
         if building.sentence:
-            return building.sentence, (info.class_name, *facts)
-        return info.class_name[:1].upper() + info.class_name[1:], facts
+            return building.sentence, (info.class_said, *facts)
+        return info.class_said[:1].upper() + info.class_said[1:], facts
 
     def loose(self, setting: DrawSetting) -> DraftDrawing | None:
         """Return what the moving linkage does not show: guides without sliders, pins without bars."""
@@ -247,7 +250,7 @@ class SheetDrawing:
                 return None
             typed, unit = sheet.building.typed, sheet.building.draft.unit
             words = f"{typed}_" if typed else f"{short(dist(sheet.anchor, sheet.span))} {unit}"
-            return Rubber("photo", sheet.anchor, sheet.span, typeset(f"distance {words}"))
+            return Rubber("photo", sheet.anchor, sheet.span, typeset(said("distance {length}", length=words)))
         start = under(seen, *grip.begin, grip.reach)
         on_joint = start is not None and start[0] == JOINT
         if sheet.tool in ("move", "photo") or (sheet.tool in ("bar", "slider") and not on_joint):

@@ -54,6 +54,7 @@ from linkanim.player.state import (
 )
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
+from linkanim.words import said
 
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
@@ -89,7 +90,7 @@ def own(state: State, _: None) -> State:
     state = leave_sketch(state)
     scene = state.scene
     if not scene.trace:
-        return with_toast(state, f"{scene.name} has no trace to take; W draws a path")
+        return with_toast(state, said("{scene} has no trace to take; W draws a path", scene=scene.name))
     try:
         curve = trace_of(as_complex(state.displayed.cycle(720, derivatives=0).position[scene.trace[0]]))
     except BadInput as error:
@@ -246,7 +247,11 @@ def cognate(state: State, place: int) -> State:
     sketch = state.drawing
     cognates = [one for one in sketch.cognates if one] if sketch else []
     if sketch is None or not 0 <= place < len(cognates):
-        return with_toast(state, "none of its cognates turns fully") if sketch and sketch.follows else state
+        return (
+            with_toast(state, said("none of its cognates turns fully"))
+            if sketch and sketch.follows
+            else state
+        )
     from linkanim.synthesis.front import names_of
 
     answers = (*sketch.answers[: sketch.chosen], cognates[place], *sketch.answers[sketch.chosen + 1 :])

@@ -59,6 +59,7 @@ from linkanim.player.state import (
 )
 from linkanim.scenes.scene import PosesPurpose
 from linkanim.units import short, three_digits
+from linkanim.words import said, said_as, to_say
 
 if TYPE_CHECKING:
     from linkanim.mechanics.motion import Pose
@@ -73,7 +74,7 @@ MOST = 5
 """The most poses."""
 _WHOLE = radians(1)
 """The step in which angles are dragged."""
-_NO_CHOICE = "five poses leave no choice of pivots: Burmester's points are where they are"
+_NO_CHOICE = to_say("five poses leave no choice of pivots: Burmester's points are where they are")
 
 
 def poses_(state: State, _: None) -> State:
@@ -110,7 +111,7 @@ def pin(state: State, at: Point) -> State:
 def _with_pin(state: State, sketch: PoseSketch, at: Point) -> State:
     room = 1 if sketch.sliding else len(PIVOTS)
     if len(sketch.poses) >= MOST:
-        return with_toast(state, _NO_CHOICE)
+        return with_toast(state, said(_NO_CHOICE))
     selected = "pin", min(len(sketch.pins), room - 1)
     bare = replace(sketch, pins=(*sketch.pins[: room - 1], at), selected=selected, earlier=sketch)
     return _changed(state, bare, "search")
@@ -411,38 +412,46 @@ def _whole(angle: float) -> float:
 # What is shown of poses.
 
 _FREE = {
-    2: "pivots and joints are free: drag them",
-    3: "a pivot or its joint is free: drag them",
-    4: "pivots and joints slide along Burmester's curves (B)",
-    5: "nothing is free: Burmester's points (B)",
+    2: to_say("pivots and joints are free: drag them"),
+    3: to_say("a pivot or its joint is free: drag them"),
+    4: to_say("pivots and joints slide along Burmester's curves (B)"),
+    5: to_say("nothing is free: Burmester's points (B)"),
 }
 """The linkages that can be found, by the number of poses."""
 
 
 def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ...]]:
     """Return words on what is missing, on why there is no linkage, or on the shown one."""
-    kind, count = "slider-crank" if sketch.sliding else "four-bar", len(sketch.poses)
-    sets = ("pins",) if sketch.pinning else ()
+    kind, count = said("slider-crank") if sketch.sliding else said("four-bar"), len(sketch.poses)
+    sets = (said("pins"),) if sketch.pinning else ()
     if sketch.refusal:
         return sketch.refusal, sets
     if not sketch.is_asked:
-        begun = "one pose; set down another" if count else "set down two to five poses: press and drag"
-        return begun, (f"a {kind} is to pass them", *sets)
+        begun = said("set down two to five poses: press and drag")
+        if count:
+            begun = said("one pose; set down another")
+        return begun, (said("a {kind} is to pass them", kind=kind), *sets)
     answer = sketch.answer
     if answer is None:
-        return f"{count} poses: looking for a {kind}", sets
+        return said("{count} poses: looking for a {kind}", count=count, kind=kind), sets
     angle = f"{degrees(answer.transmission):.0f}°"
-    lacks = ", ".join(answer.named_defects)
-    facts = f"longest link {short(answer.size)} {sketch.unit}, transmission angle {angle}"
-    lacking = f"defects: {lacks}" if lacks else "passes them in order on one branch"
-    words = f"{state.scene.info.class_name} through {count} poses"
-    return words[:1].upper() + words[1:], (facts, lacking, _FREE[count], *sets)
+    lacks = said_as("list", ", ").join(map(said, answer.named_defects))
+    facts = said(
+        "longest link {length}, transmission angle {angle}",
+        length=f"{short(answer.size)} {sketch.unit}",
+        angle=angle,
+    )
+    lacking = said("passes them in order on one branch")
+    if lacks:
+        lacking = said("defects: {defects}", defects=lacks)
+    words = said("{linkage} through {count} poses", linkage=state.scene.info.class_said, count=count)
+    return words[:1].upper() + words[1:], (facts, lacking, said(_FREE[count]), *sets)
 
 
 def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
     """Return an answer's longest link and transmission angle, or its first defect."""
     lacks = answer.named_defects
-    words = lacks[0] if lacks else f"{degrees(answer.transmission):.0f}°"
+    words = said(lacks[0]) if lacks else f"{degrees(answer.transmission):.0f}°"
     return f"{three_digits(answer.size)} {sketch.unit} · {words}"
 
 

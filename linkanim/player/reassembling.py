@@ -17,6 +17,7 @@ from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import Rule, State, with_toast, with_undo
 from linkanim.scenes.closures import SceneClosure, closures, described
 from linkanim.scenes.scene import Scene
+from linkanim.words import said
 
 
 def _toggle(state: State, _: None) -> State:
@@ -74,17 +75,17 @@ class OpenClosures(OpenShelf):
     @property
     def heading(self) -> str:
         """What stands over the pictures."""
-        return f"Closures of {self.scene.title}"
+        return said("Closures of {title}", title=said(self.scene.title))
 
     @property
     def nothing(self) -> str:
         """What is said where no closure is listed."""
-        return "no closure's words contain that" if self.is_ready else "looking for all closures…"
+        return said("no closure's words contain that") if self.is_ready else said("looking for all closures…")
 
     def texts(self, place: int) -> tuple[str, str, str]:
         """Return the texts by which a closure is found: its number, what it is in words, its class."""
         number, words, motion, class_name, curve = described(self.closures, place)
-        same = f", curve {curve}" if curve.startswith("that") else ""
+        same = said(", curve {curve}", curve=curve) if curve.startswith("that") else ""
         return number, f"{number}: {words}; {motion}{same}", class_name
 
     def takes(self, place: int) -> tuple[Action, ...]:

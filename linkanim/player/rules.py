@@ -8,6 +8,7 @@ from typing import cast
 from linkanim.intake import control_in
 from linkanim.player.state import State
 from linkanim.scenes.editing import closure_name
+from linkanim.words import said
 
 _MOST_NUMBERS = 1_000
 MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
@@ -116,7 +117,7 @@ def cards(value: object) -> bool:
 
 def stuck(words: str) -> Callable[[State, State], str | None]:
     """Return the answer of an action that says these words where nothing changed."""
-    return lambda was, now: words if (was.editing, was.sheet) == (now.editing, now.sheet) else None
+    return lambda was, now: said(words) if (was.editing, was.sheet) == (now.editing, now.sheet) else None
 
 
 def closure(before: State, after: State) -> str | None:

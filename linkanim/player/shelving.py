@@ -22,6 +22,7 @@ from linkanim.player.keys import (
     enter,
 )
 from linkanim.player.state import STILL, Mode, Resolver, Rule, State
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.picture.shelf import Grid
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from linkanim.player.sight import Sight
 
 _LONGEST = 40
-_NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
+_NO_FILES = to_say("there is no scene file in the current folder; Ctrl+S writes one")
 
 
 def toggle(state: State, _: None) -> State:
@@ -119,7 +120,7 @@ def _files_here(window: Outside, _: Value) -> Iterator[Action]:
     """Yield the actions that open the shelf at the current folder's scene files."""
     files = window.scene_files()
     if not files:
-        yield Action("note", _NO_FILES)
+        yield Action("note", said(_NO_FILES))
         return
     yield Action("files", _listed(files))
     yield Action("point", len(window.state.shelf))

@@ -48,6 +48,7 @@ from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_u
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import degrees
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -122,8 +123,8 @@ def loss_of_turning(before: Info, after: Info) -> str | None:
     if after.full_turn or not before.full_turn:
         return None
     low, high = (degrees(limit) for limit in after.input_range)
-    cause = f"{after.why_swinging}: " if after.why_swinging else ""
-    return f"{cause}the crank cannot turn fully; it swings {low}…{high}"
+    words = said("the crank cannot turn fully; it swings {low}…{high}", low=low, high=high)
+    return said("{cause}: {effect}", cause=after.why_swinging, effect=words) if after.why_swinging else words
 
 
 def check_of_turning(before: Info) -> Callable[[Scene], None]:
@@ -306,7 +307,7 @@ def closes(scene: Scene) -> bool:
 
 HOME = Box(-100.0, -40.0, 200.0, 130.0)
 """The part of the plane that an empty sheet shows, in millimetres."""
-BLANK = "nothing is drawn yet that has a dimension"
+BLANK = to_say("nothing is drawn yet that has a dimension")
 LIVE = ("move", "photo")
 """The tools that change what is built while the hand moves."""
 
@@ -1133,7 +1134,7 @@ def refused(state: State, action: Action, error: Exception) -> State:
     """
     if isinstance(error, LinkanimError):
         return with_toast(state, str(error))
-    sentence = f"the solver failed there ({named(error)}); the last good linkage runs on"
+    sentence = said("the solver failed there ({fault}); the last good linkage runs on", fault=named(error))
     item = chosen(state.editing, state.scene) if action.name in _AT_A_VALUE else None
     context = {"action": list(action), "key": item.key if item else None, "typed": state.editing.typed}
     state = with_effect(state, "report", report(state.scene, error, **context))
@@ -1175,4 +1176,5 @@ def recovered(state: State, good: State, error: Exception) -> State:
     clock = good.clock.go(state.frame, good.phase, paused=state.scene is good.scene or good.clock.paused)
     back = replace(good, frame=state.frame, clock=clock, glide=None, departures=())
     back = replace(back, effects=(), recording=None)
-    return with_toast(back, f"the solver failed there ({named(error)}); the last good linkage is back")
+    words = said("the solver failed there ({fault}); the last good linkage is back", fault=named(error))
+    return with_toast(back, words)

@@ -41,6 +41,7 @@ from linkanim.player.state import (
     with_toast,
 )
 from linkanim.units import significant, typeset
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.player.hand import Gesture, Hand, Outside
@@ -49,10 +50,10 @@ if TYPE_CHECKING:
 SIZES: tuple[tuple[int, int] | None, ...] = (None, (800, 450), (1280, 720), (1920, 1080), (3840, 2160))
 """The sizes of recordings to choose from; None for the window's shape."""
 FORMATS: tuple[Format, ...] = ("gif", "mp4")
-RUNS = "a recording runs; G or M ends it"
+RUNS = to_say("a recording runs; G or M ends it")
 KEEPS = (Action("screenshot"), Action("svg"), Action("share"), Action("save"), Action("save_as"))
 """Other ways to keep the picture or the scene."""
-_HINT = "↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes"
+_HINT = to_say("↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes")
 _LONGEST = 300
 PLACE = 3
 """The row of the place to write to."""
@@ -74,13 +75,13 @@ def rows(state: State) -> tuple[TakeRow, ...]:
     """Return the rows of the open dialog: the choices, the row that begins, and other ways to keep things."""
     dialog, choice = state.of(TakeDialog) or TakeDialog(), of_a_kind(state)
     typed = f"{dialog.typed}_" if dialog.typed else f"{dialog.place}.{choice.format}"
-    keys = {action: (words, key) for words, key, action in commands(RUNNING)}
+    keys = {action: (said(words), key) for words, key, action in commands(RUNNING)}
     return (
-        TakeRow("Format", choice.format.upper()),
-        TakeRow("Size", _sized(choice.size)),
-        TakeRow("Length", _period(state) if choice.whole else "until it is stopped"),
-        TakeRow("Where to", typed),
-        TakeRow("Record", "Enter", Action("take_start")),
+        TakeRow(said("Format"), choice.format.upper()),
+        TakeRow(said("Size"), _sized(choice.size)),
+        TakeRow(said("Length"), _period(state) if choice.whole else said("until it is stopped")),
+        TakeRow(said("Where to"), typed),
+        TakeRow(said("Record"), "Enter", Action("take_start")),
         *(TakeRow(*keys[action], action) for action in KEEPS),
     )
 
@@ -91,12 +92,12 @@ def of_a_kind(state: State) -> TakeChoice:
 
 
 def _sized(size: tuple[int, int] | None) -> str:
-    return "{} × {}".format(*size) if size else "as the window"
+    return "{} × {}".format(*size) if size else said("as the window")
 
 
 def _period(state: State) -> str:
     seconds = abs(state.scene.period / state.clock.speed)
-    return typeset(f"one period, {significant(seconds, 3)} s")
+    return typeset(said("one period, {seconds} s", seconds=significant(seconds, 3)))
 
 
 def target(state: State) -> str:
@@ -112,7 +113,7 @@ def target(state: State) -> str:
 def toggle(state: State, _: None) -> State:
     """Open the dialog, or close it."""
     if state.recording:
-        return with_toast(state, RUNS)
+        return with_toast(state, said(RUNS))
     bare = state.unlisted.unhelped
     return bare.without(TakeDialog) if state.of(TakeDialog) else bare.with_mode(TakeDialog(row=_START))
 
@@ -233,7 +234,7 @@ def record(state: State, form: Format) -> State:
 def period(state: State, form: Format) -> State:
     """Record one period at the present speed and look: a recording without actions."""
     if state.recording:
-        return with_toast(state, RUNS)
+        return with_toast(state, said(RUNS))
     return with_effect(state, "period", form)
 
 
@@ -301,8 +302,10 @@ class TakeDialog(Mode):
             for n, one in enumerate(rows(state))
         )
         is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
-        facts = () if is_whole or not self.folder else (f"in {self.folder}",)
-        panel = Panel(shown, "Record and save", facts, error=self.refusal or None, hint=_HINT, counted=False)
+        facts = () if is_whole or not self.folder else (said("in {folder}", folder=self.folder),)
+        panel = Panel(
+            shown, to_say("Record and save"), facts, error=self.refusal or None, hint=_HINT, counted=False
+        )
         return replace(over, listed=panel, tools=over.tools if state.building else None, spots=(), handles=())
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:

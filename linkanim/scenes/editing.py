@@ -33,6 +33,7 @@ from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS
 from linkanim.scenes.form import LENGTHS, Field, Key, Measure, ValueType, fields_in
 from linkanim.scenes.reading import Check, scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.words import name_said, said, spoken, to_say
 
 if TYPE_CHECKING:
     from difflib import Match
@@ -71,7 +72,10 @@ class Number(NamedTuple):
         """
         labels = self.field.label
         text = labels if isinstance(labels, str) else labels[self.part or 0]
-        text = f"{{name}}, {text}" if text[0].islower() else text
+        if text[0].islower():
+            text = said("{name}, {part}", name="{name}", part=said(text))
+        elif text != "{bar}":
+            text = said(text)
         return text.format_map(self._words(text, scene))
 
     def _words(self, text: str, scene: Scene) -> Mapping[str, str]:
@@ -79,6 +83,7 @@ class Number(NamedTuple):
         section, name = self.key[0], str(self.key[-1] if len(self.key) < 2 else self.key[1])
         if section in SHORTHANDS:
             links = {body: words.removeprefix("second ") for body, words in names.items()}
+            links = {body: name_said(words) for body, words in links.items()}
             return links | {body.capitalize(): words.capitalize() for body, words in links.items()}
         if section == "bodies":
             return {"name": _named(name, names)}
@@ -87,7 +92,7 @@ class Number(NamedTuple):
             pair = re.sub(" *- *", "–", str(self.key[-1]))
             return {"name": f"{link} {pair}"}
         if section == "loads":
-            return {"name": f"Load {name}"}
+            return {"name": said("Load {name}", name=name)}
         if section in ("springs", "dampers"):
             strut = next(item for item in scene.linkage.springs + scene.linkage.dampers if item.name == name)
             words = scene.linkage.strut_words(strut)
@@ -115,12 +120,16 @@ def numbers(document: Mapping[str, Any]) -> Iterator[Number]:
 def _bar(start: str | None, end: str, scene: Scene) -> str:
     """Return a bar's name: its body's number, and its joints where it is not a crank."""
     body = _body({start, end}, scene)
-    word = "Crank" if end in {crank.name for crank in scene.linkage.cranks} else "Bar"
+    word = to_say("Crank") if end in {crank.name for crank in scene.linkage.cranks} else to_say("Bar")
     if body and body.name.isdigit():
-        return f"Crank {body.name}" if word == "Crank" else f"Bar {body.name}, {start}–{end}"
+        if word == "Crank":
+            return said("Crank {name}", name=body.name)
+        return said("Bar {name}, {joints}", name=body.name, joints=f"{start}–{end}")
     own = body and body.name not in (f"{start}{end}", f"{end}{start}")
-    called = _named(body.name, scene.info.link_names) if body and own else word
-    return f"{called}{',' * (called.startswith('Bar ') or called[-1].isdigit())} {start}–{end}"
+    called = _named(body.name, scene.info.link_names) if body and own else said(word)
+    if called.startswith(said("Bar {name}", name="")) or called[-1].isdigit():
+        return said("{name}, {part}", name=called, part=f"{start}–{end}")
+    return f"{called} {start}–{end}"
 
 
 def _body(joints: set[str | None], scene: Scene) -> Body | None:
@@ -130,11 +139,12 @@ def _body(joints: set[str | None], scene: Scene) -> Body | None:
 def _named(body: str, names: Mapping[str, str]) -> str:
     """Return a body's name in the list: by its number, "Bar b", "Upper bar", "Rod 2", or its own name."""
     if body.isdigit():
-        return f"Link {body}"
+        return said("Link {name}", name=body)
     words = re.sub(_COUNTED, r"\1 \2", names[body])
     if len(words) <= _SHORT:
-        return f"Bar {words}"
-    return f"{words} bar".capitalize() if words in _ADJECTIVES else words[:1].upper() + words[1:]
+        return said("Bar {name}", name=words)
+    called = said("{adjective} bar", adjective=name_said(words)) if words in _ADJECTIVES else name_said(words)
+    return called[:1].upper() + called[1:]
 
 
 # Titles and classes: which words of a class a title says, and the title of a scene whose class changes.
@@ -240,10 +250,11 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     They are cached: a window whose list is open asks for them in every frame.
     """
     kept: dict[str, Any] = vars(scene)
-    if "_dimensions" not in kept:
-        stated = numbers(scene.document) if scene.document else ()
-        kept["_dimensions"] = tuple(_dimension(number, scene) for number in stated)
-    return kept["_dimensions"]  # type: ignore[no-any-return]
+    language = f"_dimensions_{spoken()}"
+    if language not in kept:
+        found = numbers(scene.document) if scene.document else ()
+        kept[language] = tuple(_dimension(number, scene) for number in found)
+    return kept[language]  # type: ignore[no-any-return]
 
 
 def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:

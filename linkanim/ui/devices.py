@@ -22,7 +22,7 @@ from linkanim.player.hand import Drag, Gesture
 from linkanim.player.keys import Bind, ModeKeys, Press, bind_of
 from linkanim.player.state import NEAR_HAND, REACH, STILL
 from linkanim.scenes.editing import phase_towards
-from linkanim.ui.pointing import SPEED_ROWS, Pointed, row_asks
+from linkanim.ui.pointing import Pointed, row_asks, speed_rows
 from linkanim.ui.screen import Screen
 
 # The keyboard: key events become presses, and a held key an action that repeats.
@@ -405,14 +405,14 @@ class Mouse:
         """Zoom, pan, or drag what is under the mouse."""
         row = self._on_a_row(screen) if gesture.kind in ("wheel", "down") else None
         match gesture.kind:
-            case "wheel" if row in SPEED_ROWS:
+            case "wheel" if row in speed_rows():
                 return (Action("speed", gesture.notches),)
             case "wheel":
                 return self._zoomed(gesture.notches, screen)
             case "down" if row is not None and (asked := row_asks(screen.state, row)):
                 self.drag = "bar"
                 return asked
-            case "down" if row in SPEED_ROWS:
+            case "down" if row in speed_rows():
                 self.drag, self.steps = "pace", 0
                 return ()
             case "down":

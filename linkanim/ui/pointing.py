@@ -22,9 +22,12 @@ from linkanim.player.action import Action
 from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits
+from linkanim.words import name_said, said, said_as
 
-SPEED_ROWS = ("input speed", "input rate")
-"""The labels of the rows that say how fast the scene runs."""
+
+def speed_rows() -> tuple[str, ...]:
+    """Return the labels of the rows that say how fast the scene runs."""
+    return said("input speed"), said("input rate")
 
 
 class PointedThing(NamedTuple):
@@ -126,19 +129,19 @@ def _of_row(state: State, scene: Scene, label: str) -> tuple[str, ...]:
     """Return words on what a click on a row of numbers does; empty where it does nothing."""
     if not label:
         return class_words(scene)
-    if label in SPEED_ROWS:
-        return ("drag it sideways, or turn the wheel",)
+    if label in speed_rows():
+        return (said("drag it sideways, or turn the wheel"),)
     token = charted(scene).get(label)
     if token is None:
         return ()
     known = token in chart_tokens(scene, state.look.chart)
-    return ("a click puts its chart away" if known else "a click charts it",)
+    return (said("a click puts its chart away") if known else said("a click charts it"),)
 
 
 def row_asks(state: State, label: str) -> tuple[Action, ...]:
     """Return the actions of a click on a row of numbers: its chart, on or off; on the class, its reason."""
     if not label:
-        return (Action("note", ": ".join(class_words(state.displayed))),)
+        return (Action("note", said_as("list of reasons", ": ").join(class_words(state.displayed))),)
     token = charted(state.displayed).get(label)
     return (Action("strip", token),) if token else ()
 
@@ -146,7 +149,9 @@ def row_asks(state: State, label: str) -> tuple[Action, ...]:
 def class_words(scene: Scene) -> tuple[str, ...]:
     """Return a scene's class, and the reason for it: Grashof's sum, else how its input moves."""
     info = scene.info
-    return info.class_name[:1].upper() + info.class_name[1:], info.grashof or f"input {info.input_words}"
+    return info.class_said[:1].upper() + info.class_said[1:], info.grashof or said(
+        "input {motion}", motion=info.input_words
+    )
 
 
 def _of_joint(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
@@ -169,9 +174,13 @@ def _of_link(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
     long = hypot(end[0] - begin[0], end[1] - begin[1])
     rate, angle = (_number(scene, pose, f"{name}.{what}") for what in ("angular_velocity", "angle"))
     return (
-        f"{scene.info.link_names[name]}: ω = {four_digits(rate)} rad/s",
+        f"{name_said(scene.info.link_names[name])}: ω = {four_digits(rate)} rad/s",
         # rounded before it is brought within one turn, so that 359.99999° is 0°
-        f"{four_digits(long)} {scene.length_unit} at {four_digits(float(f'{angle % 360.0:.4g}') % 360.0)}°",
+        said(
+            "{length} at {angle}",
+            length=f"{four_digits(long)} {scene.length_unit}",
+            angle=f"{four_digits(float(f'{angle % 360.0:.4g}') % 360.0)}°",
+        ),
     )
 
 

@@ -35,6 +35,7 @@ from linkanim.player.state import State
 from linkanim.ui.pictures import Framing, drawn_in, fading, flash
 from linkanim.ui.pointing import Pointed, PointedThing, thing_at
 from linkanim.ui.shown import lasting
+from linkanim.words import said
 
 if TYPE_CHECKING:
     pass
@@ -268,8 +269,10 @@ class Screen(Sight):
         self.state, self.over = state, over
         self._point(state)
         on_sheet = state.building and state.building.building.made.scene is None
-        title = UNTITLED if on_sheet else state.scene.title
-        self._name(f"{title}{' • edited' * (state.place in state.edited and not on_sheet)}")
+        title = said(UNTITLED if on_sheet else state.scene.title)
+        if state.place in state.edited and not on_sheet:
+            title = said("{title} • edited", title=title)
+        self._name(title)
         picture = self._framing.at(state, surface.get_size())
         drawn, fades = drawn_in(over, state), fading(state)
         shown = (picture, state.phase, state.clock.speed, drawn, fades)

@@ -19,13 +19,14 @@ from linkanim.player.state import (
     State,
 )
 from linkanim.ui.pointing import Pointed, hover_text
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     pass
 
 # What lies over the picture: the state as an overlay.
 
-_BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
+_BAR = to_say("Space pause · Tab next · drag any joint · right click: all commands · H keys")
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 
@@ -123,7 +124,7 @@ def _hint_bar(state: State) -> Fading | None:
         return None
     since = max(state.frame - _WATCH_FRAMES, 0)
     eighths = min(since, _BAR_FRAMES - since, 32) // 4
-    return Fading(_BAR, eighths) if eighths > 0 else None
+    return Fading(said(_BAR), eighths) if eighths > 0 else None
 
 
 def _watch(state: State) -> Fading | None:
@@ -135,11 +136,15 @@ def _watch(state: State) -> Fading | None:
         return None
     gone = state.frame - (state.frame if state.arrived is None else state.arrived)
     is_new = 0 < gone < _WATCH_FRAMES and state.touched <= (state.arrived or 0)
-    return Fading(state.shown.look_at) if is_new or state.look.names else None
+    return Fading(said(state.shown.look_at)) if is_new or state.look.names else None
 
 
 def _recording(state: State) -> str | None:
     if state.recording is None:
         return None
     seconds = (state.frame - state.recording.since) // FRAMES_PER_SECOND
-    return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
+    return said(
+        "REC {format} {time}",
+        format=state.recording.format.upper(),
+        time=f"{seconds // 60}:{seconds % 60:02d}",
+    )

@@ -44,6 +44,7 @@ from linkanim.ui.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mou
 from linkanim.ui.pointing import Pointed, PointedThing
 from linkanim.ui.screen import Screen
 from linkanim.ui.shown import lasting, overlay
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.player.background import Following, Making, Queue
@@ -73,8 +74,10 @@ _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
 _USUALLY_MADE = ("--fit", "A4")
 """Options of `linkanim make` for parts that are made from the window."""
-_WAITS = "unsaved work of another sheet is kept as well; `linkanim new` without a photograph takes it up"
-_TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
+_WAITS = to_say(
+    "unsaved work of another sheet is kept as well; `linkanim new` without a photograph takes it up"
+)
+_TAKEN_UP = to_say("this is the unsaved work that was kept; Ctrl+N begins an empty sheet")
 _BESIDE_A_TAPE = frozenset(
     {"mouse_moved", "hint", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
 )
@@ -130,7 +133,7 @@ class Window:
         if offer:
             self._offer()
         elif drafts and drafts.waits():
-            self._notes.append(_WAITS)
+            self._notes.append(said(_WAITS))
 
     def tick(self, frames: int = 1) -> bool:
         """Go `frames` frames on, paint and flip; False when the window is to be closed.
@@ -270,7 +273,7 @@ class Window:
                 self._layering.close()
             self._layering = Making(scene, self._as_made)
         elif self._making:
-            self._notes.append("the parts are being written")
+            self._notes.append(said("the parts are being written"))
         else:
             self._making = Making(scene, self._as_made, Path(f"{scene.name}-parts"))
 
@@ -298,7 +301,7 @@ class Window:
         """Leave the tape where an action changes something."""
         if self._tape and action.name not in _BESIDE_A_TAPE:
             self._tape = None
-            yield Action("note", "the tape has been left; the keys are yours")
+            yield Action("note", said("the tape has been left; the keys are yours"))
 
     def _show(self) -> None:
         """Paint and flip; where a state cannot be painted, go back to the last that could."""
@@ -471,14 +474,14 @@ class Window:
         sheet = self.state.sheet
         why = self._keep_draft() if sheet and not sheet.is_written else None
         if why and why != self._warned:
-            self._notes.append(f"{why}; once more closes without the draft")
+            self._notes.append(said("{error}; once more closes without the draft", error=why))
         self._open, self._warned = bool(why and why != self._warned), why
 
     def _open_file(self, path: Path) -> None:
         """Show the scene of a file, which is watched from now on."""
         if self.state.recording:
             raise BadInput(
-                "a recording holds only the scenes that it began with; stop it, then open the file"
+                said("a recording holds only the scenes that it began with; stop it, then open the file")
             )
         if is_lesson(path):
             self._lesson = Lesson(path)
@@ -492,14 +495,16 @@ class Window:
     def note_left_out(self, left_out: Sequence[str]) -> None:
         """Say what of another program's file is not in its scene."""
         if left_out:
-            self._notes.append(f"left out of it: {'; '.join(left_out)}")
+            self._notes.append(said("left out of it: {parts}", parts="; ".join(left_out)))
 
     def _reload(self) -> None:
         """Show the scene file as it is now; where it is wrong a note says so, and the linkage runs on."""
         if self._file is None:
-            raise BadInput("this scene was not loaded from a file; `linkanim FILE.toml` opens one")
+            raise BadInput(said("this scene was not loaded from a file; `linkanim FILE.toml` opens one"))
         if self.state.recording:
-            raise BadInput("a recording holds only the scenes that it began with; stop it, then press F5")
+            raise BadInput(
+                said("a recording holds only the scenes that it began with; stop it, then press F5")
+            )
         scene = self._file.load()
         try:
             self.state = renewed(leave_sheet(self.state), scene)
@@ -513,7 +518,7 @@ class Window:
         if text not in self._reported:
             self._reported.add(text)
             written = files.report(text, self.state.scene.name)
-            self._notes.append(f"{written} holds what a report of the fault needs")
+            self._notes.append(said("{file} holds what a report of the fault needs", file=written))
 
     def _stop(self, form: Literal["gif", "mp4"]) -> None:
         """Write the recorded tape and render it; where it cannot be written, the recording runs on."""
@@ -523,7 +528,7 @@ class Window:
             assert self._taping
             self.state = replace(self.state, recording=Take(form, self._taping.since))
             self._target = ""  # the next attempt takes a free name
-            self._notes.append(f"{error}; the recording runs on")
+            self._notes.append(said("{error}; the recording runs on", error=error))
 
     def _render(self, form: str) -> None:
         """Render the running recording, into the file that was chosen when it began."""

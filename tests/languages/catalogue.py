@@ -79,6 +79,7 @@ def _of_tables() -> Iterator[Sentence]:
         yield from (Sentence(None, words, None, f"share/{file}") for words in page_words(packaged(file)))
     for file in ("lengths.js", "page.js"):
         yield from (Sentence(None, words, None, f"share/{file}") for words in script_words(packaged(file)))
+    yield from _of_the_window()
     for name in linkanim.names():
         scene = linkanim.load(name)
         for words in (scene.title, scene.look_at, scene.chapter):
@@ -89,6 +90,30 @@ def _of_tables() -> Iterator[Sentence]:
                 yield Sentence("name", words, None, f"scene {name}")
 
 
+def _of_the_window() -> Iterator[Sentence]:
+    """Yield the words of keys, commands and tools."""
+    from linkanim.build.tools import TOOLS
+    from linkanim.player.keys import GROUPS, KEYS, commands
+    from linkanim.player.modes import KEYS_OF
+
+    for table in (KEYS, *(mode.table for mode in KEYS_OF.values())):
+        for subject, rows in table.items():
+            yield Sentence("subject", subject, None, f"keys: {subject}")
+            for row in rows:
+                yield Sentence(None, row.words, None, f"keys: {row.keys}")
+                if re.search("[a-z]{2}", _KEY.sub("", row.keys)):
+                    yield Sentence(None, row.keys, None, f"keys: {row.keys}")
+    for mode in KEYS_OF.values():
+        for words, _, action in commands(mode):
+            yield Sentence(None, words, None, f"command: {action.name}")
+    for group in GROUPS.values():
+        yield Sentence(None, group.title.lower(), None, f"GROUPS: {group.title}")
+    for tool in TOOLS:
+        yield Sentence(None, tool.name, None, f"TOOLS: {tool.icon}")
+    yield Sentence(None, "speed", None, "the slider of the speed")
+
+
+_KEY = re.compile("Space|Enter|Tab|Shift|Ctrl|Alt|Esc|PgUp|PgDn|Del")
 _NAME = re.compile(r"[a-z]{3,}( [a-z]+)*\d?")
 """A name that is a word: no letter of a joint, no number."""
 _USUAL = (
