@@ -36,7 +36,7 @@ from linkanim.mechanics.measures import (
     size,
     stands,
 )
-from linkanim.mechanics.program import Array
+from linkanim.mechanics.program import Array, keep_memory
 from linkanim.mechanics.search import highest, in_blocks
 from linkanim.mechanics.tolerances import AT_END, IDLE, ROUNDING
 
@@ -84,6 +84,7 @@ def input_effort(motion: Any) -> Any:
     forward. Unbounded at a limit of the input that takes power; NaN where the input stands still and does not
     start to move either.
     """
+    keep_memory()
     with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
         power = _power(motion, _MOVING)
         effort = _quotient(motion, power, _MOVING)

@@ -70,7 +70,7 @@ from linkanim.mechanics.measures import (
     turned,
 )
 from linkanim.mechanics.precise import direction
-from linkanim.mechanics.program import Array
+from linkanim.mechanics.program import Array, keep_memory
 from linkanim.mechanics.tolerances import IDLE, NO_LEVER, ROUNDING
 
 GROUND = "ground"
@@ -728,6 +728,7 @@ def reactions(motion: Any) -> Reactions:
             "forces of a block on two lines, or of a slot on a link of one point, are not worked out; what"
             " the input delivers is"
         )
+    keep_memory()
     with np.errstate(all="ignore"):
         return _reactions(motion)
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from io import BytesIO
 from itertools import accumulate, pairwise
 from typing import overload
@@ -298,8 +297,6 @@ def words(surface: pygame.Surface, colours: Iterable[tuple[int, int, int]]) -> W
 
 Colour = tuple[int, int, int]
 
-_KEPT_BYTES = 16 << 20
-"""Freed memory that is kept for the next frame: more than the largest arrays of a frame take together."""
 _MOST_AT_ONCE = 1 << 28
 """The most layers times pixels that are worked out together: about thirty layers at 3840 × 2160."""
 _PIECES = 8
@@ -458,16 +455,6 @@ def paint(surface: pygame.Surface, layers: Iterable[Layer]) -> None:
     Where the surface has alpha, colours are kept straight (not multiplied by it).
     """
     covers(surface, [Shapes(layers)])[0].put(surface)
-
-
-def keep_memory() -> None:
-    """Have the C library keep the memory that a frame frees for the next one.
-
-    glibc returns free memory at the heap's end to the system where it is more than twice the largest block
-    that was ever freed; getting it back page by page took a quarter to a half of a frame's time.
-    """
-    with suppress(MemoryError):
-        np.empty(_KEPT_BYTES, np.uint8)
 
 
 def is_clear(surface: pygame.Surface) -> bool:

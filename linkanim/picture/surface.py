@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.program import keep_memory
 from linkanim.picture.board import Board
 from linkanim.picture.items import SHEET, Caption, Group, Target, flat
 from linkanim.picture.overlay import NOTHING_OVER, Overlay
@@ -22,7 +23,6 @@ from linkanim.picture.raster import (
     ground_clear,
     in_turn,
     is_clear,
-    keep_memory,
     paints,
 )
 from linkanim.picture.text import Lettering, Type
