@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 from types import MappingProxyType
 from typing import Any
 
@@ -592,12 +593,16 @@ def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ..
     `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
     """
     linkage = cycle.mechanism.linkage
-    changing = {token for token, one in register(linkage).items() if one.changes(cycle)}
-    point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
-    candidates = [token for token in _candidates(linkage, point) if token in changing]
-    rest = [token for token in register(linkage) if token in changing and token not in candidates]
-    rest.sort(key=lambda token: token.partition(".")[0] not in traced)
-    return tuple(dict.fromkeys((*candidates[:_MOST], *rest[: max(_LEAST - len(candidates), 0)])))
+    known = register(linkage)
+
+    def changes(token: str) -> bool:
+        return token in known and known[token].changes(cycle)
+
+    point = tuple(islice((name for name in traced if changes(f"{name}.velocity")), 1))
+    candidates = [*islice(filter(changes, _candidates(linkage, point)), _MOST)]
+    others = sorted(known, key=lambda token: token.partition(".")[0] not in traced)
+    rest = (token for token in others if token not in candidates and changes(token))
+    return tuple(dict.fromkeys((*candidates, *islice(rest, max(_LEAST - len(candidates), 0)))))
 
 
 def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
