@@ -167,13 +167,13 @@ def accept(building: Building) -> Building:
 def _row_for(building: Building, fields: list[tuple[Key, Field]]) -> int:
     """Return the place of the row that the typed text is for: the chosen one, but for a unit of others."""
     if is_quantity(building.typed):
-        for place in (at % len(fields) for at in range(building.row, building.row + len(fields))):
-            key, one = fields[place]
+        for row in (at % len(fields) for at in range(building.row, building.row + len(fields))):
+            key, one = fields[row]
             if one.plain and one.plain.measure:
                 value = written(building.typed, _dimension(building.draft, key, one))
                 with suppress(BadInput):
                     _refuse(building.draft, key, one, value)
-                    return place
+                    return row
     return building.row % len(fields)
 
 
@@ -230,8 +230,8 @@ def _without(draft: Draft, key: Key) -> Draft:
     """Return the draft without the value at a key of a body, and without values that need it."""
     gone = {str(key[2])} | ({"mass", "com", "inertia"} if key[2] in ("mass", "com") else set())
     body = draft.of("bodies").get(str(key[1]), {})
-    left = {part: value for part, value in body.items() if part not in gone}
-    return draft.having("bodies", str(key[1]), left or None)
+    remaining = {part: value for part, value in body.items() if part not in gone}
+    return draft.having("bodies", str(key[1]), remaining or None)
 
 
 def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:

@@ -362,8 +362,8 @@ def trace(building: Building) -> Building:
     draft, thing = building.draft, building.chosen
     if not thing or thing[0] != JOINT:
         return refused(building, "Choose a joint to draw its curve")
-    left = [name for name in draft.trace if name != thing[1]]
-    joints = left if thing[1] in draft.trace else [*left, thing[1]]
+    remaining = [name for name in draft.trace if name != thing[1]]
+    joints = remaining if thing[1] in draft.trace else [*remaining, thing[1]]
     return changed(building, replace(draft, rest={**draft.rest, "trace": {"joints": joints}}), thing)
 
 
@@ -423,12 +423,12 @@ def delete(building: Building) -> Building:
     draft, thing = building.draft, building.chosen
     if thing is None:
         return refused(building, "Choose what is to be removed")
-    left = _without(draft, thing)
-    kept = {*left.things(), thing, DRIVE}
+    remaining = _without(draft, thing)
+    kept = {*remaining.things(), thing, DRIVE}
     gone = (one for one in draft.things() if one not in kept)
     first, *others = (f"{_WORDS.get(kind, kind[:-1])} {name}" for kind, name in (thing, *gone))
     with_it = f", with {', '.join(others)}" if others else ""
-    return changed(building, left, None, f"Removed {first}{with_it}")
+    return changed(building, remaining, None, f"Removed {first}{with_it}")
 
 
 def _drivable(draft: Draft, thing: Thing | None) -> Iterator[str]:

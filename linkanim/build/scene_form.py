@@ -105,9 +105,9 @@ def _says(draft: Draft, document: Document, joint: Joint) -> bool:
     own, given = document["joints"].get(joint.name, {}), table_of(joint)
     if isinstance(joint, RRR) and joint.side_of:
         b, p, q = (place_of(draft, name) for name in joint.side_of)
-        left = ((b - p) * (q - p).conjugate()).imag > 0
+        is_left = ((b - p) * (q - p).conjugate()).imag > 0
         own = {**own, "side": ""}
-        if left != (joint.side > 0):
+        if is_left != (joint.side > 0):
             return False
     return _alike(_ordered(own), _ordered(given), draft.unit)
 

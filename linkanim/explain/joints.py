@@ -228,9 +228,9 @@ def _direction_of_bar(joint: RRR, work: Work, span: Components, d: Formula) -> F
     a, b = (work.length(end, joint.name, length) for end, length in joint.bars)
     ahead = work.let(Symbol("δ", joint.name), atan2(span.y, span.x), ANGLE)
     corner = _corner((square(a) + square(d) - square(b)) / (TWO * a * d), work, joint.name)
-    left = _left(joint, work)
-    work.say(_why_left(joint, left))
-    return ahead + corner if left else ahead - corner
+    is_left = _left(joint, work)
+    work.say(_why_left(joint, is_left))
+    return ahead + corner if is_left else ahead - corner
 
 
 def _corner(cosine: Formula, work: Work, name: str) -> Formula:

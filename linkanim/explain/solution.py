@@ -505,9 +505,9 @@ class Solution:
     def where(self) -> tuple[Symbol | str, str]:
         """The input's name, a symbol where it has an index, and the input's value in words."""
         scene = self.request.scene
-        place = float(self.request.motion().coordinate)
+        coordinate = float(self.request.motion().coordinate)
         letter, _, index = input_symbol(scene.linkage).partition("_{")
-        words = scene.linkage.drive.coordinate.text(place, scene.length_unit, 0.01)
+        words = scene.linkage.drive.coordinate.text(coordinate, scene.length_unit, 0.01)
         return Symbol(letter, index[:-1]) if index else letter, words
 
 

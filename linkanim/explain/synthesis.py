@@ -298,15 +298,15 @@ class _Chapter:
             )
         )
         rows = []
-        for n, (angle, place) in enumerate(zip(inputs, outputs, strict=True), start=1):
+        for n, (angle, output) in enumerate(zip(inputs, outputs, strict=True), start=1):
             if sliding:
-                p = self._length("p", str(n), place * cos(angle))
+                p = self._length("p", str(n), output * cos(angle))
                 q = self._ratio("q", str(n), sin(angle))
-                w = self.work.let(Symbol("w", str(n)), square(place), _AREA)
+                w = self.work.let(Symbol("w", str(n)), square(output), _AREA)
             else:
-                p = self._ratio("p", str(n), cos(place))
+                p = self._ratio("p", str(n), cos(output))
                 q = self._ratio("q", str(n), -cos(angle))
-                w = self._ratio("w", str(n), cos(angle - place))
+                w = self._ratio("w", str(n), cos(angle - output))
             rows.append((p, q, w))
         self.work.say(
             said("Subtracting the second and the last equation from the first leaves two unknowns.")

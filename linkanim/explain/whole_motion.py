@@ -472,16 +472,16 @@ class _WholeMotion:
             )
         places = self.work.pose.position
         corners = [complex(*places[name]) for name in (pin, fixed, joint)]
-        left = ((corners[1] - corners[0]).conjugate() * (corners[2] - corners[0])).imag > 0
+        is_left = ((corners[1] - corners[0]).conjugate() * (corners[2] - corners[0])).imag > 0
         work.say(
             said(
-                _LEFT if left else _RIGHT,
+                _LEFT if is_left else _RIGHT,
                 joint=marked(joint),
                 pin=marked(pin),
                 fixed=marked(fixed),
             )
         )
-        turned = [angle if left else -angle for angle in at_pivot]
+        turned = [angle if is_left else -angle for angle in at_pivot]
         work.let(Symbol("θ", "stretched"), bars.tilt + turned[0], ANGLE)
         work.let(Symbol("θ", "folded"), bars.tilt + _STRAIGHT + turned[1], ANGLE)
         work.say(

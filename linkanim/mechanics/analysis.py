@@ -586,7 +586,7 @@ class Info:
     def toggles(self) -> tuple[float, ...]:
         """The input's places at its limits, without an end at which it merely turns back."""
         path, touched = self.mechanism.assembly.path, tuple(self.mechanism.assembly.change_points)
-        ends = (end for end in path.dead_ends if any(path.same(place, end) for place in touched))
+        ends = (end for end in path.dead_ends if any(path.same(coordinate, end) for coordinate in touched))
         return (*path.limits, *ends)
 
     @cached_property
@@ -594,7 +594,9 @@ class Info:
         """The input's places at its change points, angles within one turn, each once, the least first."""
         path, touched = self.mechanism.assembly.path, self.mechanism.assembly.change_points
         return path.distinct(
-            place for place in touched if not any(path.same(place, end) for end in path.dead_ends)
+            coordinate
+            for coordinate in touched
+            if not any(path.same(coordinate, end) for end in path.dead_ends)
         )
 
     @property
@@ -861,21 +863,21 @@ def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Arra
     )
 
 
-def _steepest(mechanism: Mechanism, place: float) -> float:
+def _steepest(mechanism: Mechanism, phase: float) -> float:
     """Return the phase beside a place at which the body with the steepest rate turns back, else the place."""
 
     def turning(near: Array) -> Mapping[str, Array]:
         return mechanism.solve(phase=near, speed=1.0, derivatives=1).angular_velocity
 
-    around = place + TURNING_WITH_IT * np.array([-1.0, 1.0])
+    around = phase + TURNING_WITH_IT * np.array([-1.0, 1.0])
     steps = {
         name: float(rate[1] - rate[0]) for name, rate in turning(around).items() if rate[0] * rate[1] < 0
     }
     if not steps:
-        return place
+        return phase
     steepest = max(steps, key=lambda name: abs(steps[name]))
     at = float(sign_changes(lambda near: turning(near)[steepest], around)[0])
-    return at if abs(at - place) < NO_WAY else place
+    return at if abs(at - phase) < NO_WAY else phase
 
 
 def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:
@@ -961,11 +963,11 @@ def _worst(info: Info, transmission: Transmission) -> str:
     if transmission.greatest - transmission.least <= SAME_PLACE:
         return said("μ = {angle}° at {joint}, all the way", **known)
     linkage = info.mechanism.linkage
-    place = float(info.mechanism.solve(phase=transmission.phase, speed=1.0, derivatives=0).coordinate)
+    coordinate = float(info.mechanism.solve(phase=transmission.phase, speed=1.0, derivatives=0).coordinate)
     if not linkage.drive.coordinate.is_angle:
-        where = f"{typeset(significant(place, 4))} {info.length_unit}"
+        where = f"{typeset(significant(coordinate, 4))} {info.length_unit}"
     else:
-        turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
+        turned = round(math.degrees(coordinate), 1) % 360 if info.full_turn else math.degrees(coordinate)
         told = significant(turned, 3)
         where = "0°" if info.full_turn and told == "360" else f"{typeset(told)}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})

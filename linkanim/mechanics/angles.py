@@ -83,7 +83,7 @@ def sharply_reduced(angle: Value, rest: Value) -> Pair:
 def tangent(angle: Value, share: float) -> Value:
     """Return share × tan(angle/share) for an angle within π/4 of the share, a power of two."""
     square, scale = angle * angle, share * share
-    (z1, c1), (z2, c2), (z3, c3) = ((place * scale, weight) for place, weight in POLES)
+    (z1, c1), (z2, c2), (z3, c3) = ((angle_of_pole * scale, weight) for angle_of_pole, weight in POLES)
     poles = (c3 / (z3 - square) + c2 / (z2 - square)) + c1 / (z1 - square)
     return angle + square * poles * angle
 
@@ -208,8 +208,8 @@ def signed_half_angle(
 
 
 def _signed_half(angle: Value, rest: Value, size: float, quarters: int | None) -> Half:
-    n, left = _left(angle, rest, quarters)
-    t = tangent(left, 4.0)
+    n, remainder = _left(angle, rest, quarters)
+    t = tangent(remainder, 4.0)
     square = t * t
     norm, rest_of_norm = square + 16.0, 16.0 - square
 
@@ -274,8 +274,8 @@ def _sharp_sides(angle: Value, rest: Value) -> Pair:
 
     n quarter turns are k half turns and f ∈ {-1, 0, 1} quarters.
     """
-    n, left = sharply_reduced(angle, rest)
-    sine, cosine = _halved(left)
+    n, remainder = sharply_reduced(angle, rest)
+    sine, cosine = _halved(remainder)
     k = rint(n * 0.5)
     f = n - k * 2.0
     even, sign = 1.0 - f * f, _sign(k)

@@ -66,8 +66,8 @@ def _solved(system: LinkEquations) -> Array:
         open_[still[~(far > SOLVED)]] = False
         if not open_.any():
             break
-    left = np.abs(system.residual(y)).max(axis=1)
-    good = (left < 1e2 * SOLVED) & (np.abs(y).max(axis=1) < 1e3)
+    error = np.abs(system.residual(y)).max(axis=1)
+    good = (error < 1e2 * SOLVED) & (np.abs(y).max(axis=1) < 1e3)
     return np.asarray(y[good])
 
 

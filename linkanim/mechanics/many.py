@@ -102,7 +102,7 @@ class LinkageForm:
         """
         programs = self.programs.setdefault(derivatives, [])
         places: ResultPlaces | None = None
-        whole, left = np.empty((0, len(phases))), np.zeros(len(phases), dtype=bool)
+        whole, open_rows = np.empty((0, len(phases))), np.zeros(len(phases), dtype=bool)
         rows, n = np.arange(len(phases)), 0
         while self.uniform and len(rows) and n < MOST:
             given = [one[rows] for one in (*lengths, phases)] if n else [*lengths, phases]
@@ -113,11 +113,11 @@ class LinkageForm:
             with np.errstate(all="ignore"):
                 results = program.run(*given, *rates)
                 if n == 1 and program.places and not program.sines and results[-1].min() >= 0:
-                    return program.places, results, left
+                    return program.places, results, open_rows
                 right = results[-1] >= 0
                 alone = right & ~program.clear(given[:-1]) if program.sines and right.any() else None
             if program.places is None:
-                left[rows[right]] = not program.apart
+                open_rows[rows[right]] = not program.apart
             else:
                 if places is None:
                     places, whole = (
@@ -127,17 +127,17 @@ class LinkageForm:
                 if n > 1:
                     whole[:, rows[right]] = results[:, right]
                 if alone is not None:
-                    left[rows[alone]] = True
+                    open_rows[rows[alone]] = True
             if right.all():
                 break
             if new and not right[0]:  # not even the sample is like itself
-                left[rows[0]] = right[0] = True
+                open_rows[rows[0]] = right[0] = True
             rows = rows[~right]
             if n == 1:
                 whole[:, rows] = np.nan
         else:
-            left[rows] = True
-        return places, whole, left
+            open_rows[rows] = True
+        return places, whole, open_rows
 
 
 def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Program:

@@ -461,8 +461,8 @@ def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, ...]:
     words = to_say("second kinematic coefficient")
     second = "second_coefficient", "2", f"{symbol}′", words, units[1], 0, f"d2{letter}/d{plain}2"
 
-    def read(place: int) -> Callable[[Any, str], Any]:
-        return lambda motion, part: motion.coefficient[part][place]
+    def read(component: int) -> Callable[[Any, str], Any]:
+        return lambda motion, part: motion.coefficient[part][component]
 
     return Measure(*first, read(0)), Measure(*second, read(1))
 
@@ -662,10 +662,10 @@ def slip_of(motion: Any, link: str) -> tuple[Any, Any, Any, Any]:
     return f, f1, f2, 2.0 * omega * f1
 
 
-def _of_slip(place: int, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
+def _of_slip(component: int, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
     def read(motion: Any, link: str) -> Any:
         with np.errstate(invalid="ignore"):
-            return slip_of(motion, link)[place] + 0.0 * motion.phase
+            return slip_of(motion, link)[component] + 0.0 * motion.phase
 
     return Measure(name, name, symbol, words, unit, order, name, read)
 

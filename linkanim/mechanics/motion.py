@@ -106,14 +106,14 @@ def arrays(layout: ResultPlaces, results: Array, shape: tuple[int, ...], kind: s
     """
     places, vectors = layout.places[kind], layout.vectors
     if kind not in VECTORS:
-        return {name: results[2 * vectors + place].reshape(shape) for name, place in places.items()}
+        return {name: results[2 * vectors + rows].reshape(shape) for name, rows in places.items()}
     pairs = results[: 2 * vectors].reshape(vectors, 2, results.shape[1]).transpose(0, 2, 1)
     if len(shape) != 1:
         pairs = pairs.reshape(vectors, *shape, 2)
     still = (*[0] * len(shape), 8)
     return {
-        name: pairs[place] if isinstance(place, int) else np.ndarray((*shape, 2), np.float64, place, 0, still)
-        for name, place in places.items()
+        name: pairs[rows] if isinstance(rows, int) else np.ndarray((*shape, 2), np.float64, rows, 0, still)
+        for name, rows in places.items()
     }
 
 
@@ -648,13 +648,13 @@ class Mechanism:
         """Whether the input comes back on the same closures, at its lower and at its upper end."""
         return self.assembly.path.keeps
 
-    def comes_to(self, place: float) -> bool:
+    def comes_to(self, coordinate: float) -> bool:
         """Tell whether the input comes to an angle, or to a travel of a slider that drives."""
-        return self.assembly.path.holds(place)
+        return self.assembly.path.holds(coordinate)
 
-    def phase_of(self, place: float, near: float) -> float:
+    def phase_of(self, coordinate: float, near: float) -> float:
         """Return the phase nearest to `near` at which the input stands at a place, or at its end."""
-        return self.assembly.path.phase_of(place, near)
+        return self.assembly.path.phase_of(coordinate, near)
 
     def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
         """Return how a crank's body turns with the input, and whether it is named from its pin."""
@@ -982,9 +982,9 @@ def _other_ranges(linkage: Linkage, own: tuple[float, float]) -> Iterator[tuple[
             places = open_places(assembly, separations) if separations else [start]
         except AssemblyError:
             continue
-        for place in places:
+        for start_there in places:
             try:
-                there = stopped(_starting(linkage, place))
+                there = stopped(_starting(linkage, start_there))
             except AssemblyError:
                 continue
             if there and not any(_are_alike(there.input_range, other) for other in known):
@@ -992,9 +992,9 @@ def _other_ranges(linkage: Linkage, own: tuple[float, float]) -> Iterator[tuple[
                 yield there.input_range
 
 
-def _starting(linkage: Linkage, place: float) -> Linkage:
+def _starting(linkage: Linkage, coordinate: float) -> Linkage:
     """Return the linkage with a start that is stated."""
-    return replace(linkage, drive=replace(linkage.drive, start=place, at_zero=True))
+    return replace(linkage, drive=replace(linkage.drive, start=coordinate, at_zero=True))
 
 
 def _are_alike(one: tuple[float, float], other: tuple[float, float]) -> bool:

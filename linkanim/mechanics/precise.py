@@ -108,9 +108,9 @@ def interpolated(places: list[Decimal], values: list[Decimal]) -> list[float]:
         for k in range(len(places) - 1, step - 1, -1):
             divided[k] = (divided[k] - divided[k - 1]) / (places[k] - places[k - step])
     coefficients = [divided[-1]]
-    for place, difference in zip(places[-2::-1], divided[-2::-1], strict=True):
+    for node, difference in zip(places[-2::-1], divided[-2::-1], strict=True):
         shifted = [Decimal(0), *coefficients]
-        coefficients = [a - place * b for a, b in zip(shifted, [*coefficients, Decimal(0)], strict=True)]
+        coefficients = [a - node * b for a, b in zip(shifted, [*coefficients, Decimal(0)], strict=True)]
         coefficients[0] += difference
     return [float(coefficient) for coefficient in coefficients]
 

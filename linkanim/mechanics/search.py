@@ -43,7 +43,7 @@ def around(turns: int, samples_a_turn: int) -> Array:
 
 def highest(
     function: Callable[[Array], Array],
-    place: float,
+    peak: float,
     reach: float,
     ends: tuple[float, float] = (-math.inf, math.inf),
 ) -> float:
@@ -52,10 +52,10 @@ def highest(
     The place is right to some 1e-6 of the reach, the function's value to about the square of that.
     """
     for _ in range(_ROUNDS):
-        near = np.clip(place + reach * np.linspace(-1, 1, 21), *ends)
+        near = np.clip(peak + reach * np.linspace(-1, 1, 21), *ends)
         values = function(near)
-        place, reach = float(near[np.where(np.isfinite(values), values, -np.inf).argmax()]), reach / 10
-    return place
+        peak, reach = float(near[np.where(np.isfinite(values), values, -np.inf).argmax()]), reach / 10
+    return peak
 
 
 def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:

@@ -59,9 +59,9 @@ class BalanceChart(DrawnPage):
         told = []
         for n, (_, unit) in enumerate(_STRIPS):
             before, after = (one.greatest[n] for one in self.both)
-            left = significant(after, 4) if after > 1e-9 * before else "0"
+            remaining = significant(after, 4) if after > 1e-9 * before else "0"
             first = f"at most {significant(before, 4)} {unit} without counterweights"
-            told.append(f"{first}, {left} {unit} with them")
+            told.append(f"{first}, {remaining} {unit} with them")
         return told
 
     def csv(self) -> str:

@@ -75,12 +75,14 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     instants = [Instant(0.0, "start") if scene.info.full_turn else Instant(pi / 2, "half-way")]
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output and (output.slider or output.name not in scene.info.turning_links):
-        place, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
+        coordinate, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
         pace = Pace(abs(scene.linkage.drive.speed), "")
-        curve = curves_of(scene, (f"{output.name}.{place}",), (pace,), "phase").curves[0]
+        curve = curves_of(scene, (f"{output.name}.{coordinate}",), (pace,), "phase").curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
             phase = _at_rest(scene, (rate, output.name), float(np.radians(peak.x)))
-            instants.append(Instant(phase, f"{words} {place} of {phrase(output, scene.info.link_names)}"))
+            instants.append(
+                Instant(phase, f"{words} {coordinate} of {phrase(output, scene.info.link_names)}")
+            )
     return tuple(_together(instants, scene.period))
 
 

@@ -91,7 +91,7 @@ def of_motion(scene: Scene, pace: Pace) -> str:
 def of_pose(scene: Scene, phase: float) -> str:
     """Return how the links of a scene stand at a phase, in a paragraph."""
     pose = scene.pose(phase, 0)
-    place = f"{input_symbol(scene.linkage)} = {driven_words(scene, float(pose.coordinate))}"
+    pose_words = f"{input_symbol(scene.linkage)} = {driven_words(scene, float(pose.coordinate))}"
     stand = []
     for body in scene.linkage.bodies:
         name = called(body, scene.info.link_names)
@@ -107,7 +107,9 @@ def of_pose(scene: Scene, phase: float) -> str:
                 x, y = (stepped(float(value), scene.length_step) for value in pose.position[joint.name])
                 stand.append(f"{joint.name} at ({x}, {y}) {scene.length_unit}")
     more = f", and {len(stand) - _MOST_TOLD} more" if len(stand) > _MOST_TOLD else ""
-    return without_subscripts(f"{_sentence(scene.title)} At {place}: {', '.join(stand[:_MOST_TOLD])}{more}.")
+    return without_subscripts(
+        f"{_sentence(scene.title)} At {pose_words}: {', '.join(stand[:_MOST_TOLD])}{more}."
+    )
 
 
 def without_subscripts(text: str) -> str:
@@ -192,7 +194,7 @@ def _way_up(curves: Curves, curve: Curve) -> float | None:
     if np.count_nonzero(steps != np.roll(steps, 1)) != 2:
         return None
     places = (peak.x for peak in extremes(curves.scene, curve))
-    peaks = [float(np.interp(place, *_rising(curve.x, curve.phases))) for place in places]
+    peaks = [float(np.interp(coordinate, *_rising(curve.x, curve.phases))) for coordinate in places]
     period = float(phases[-1] - phases[0])
     forward = (peaks[0] - peaks[1]) % period / period
     return forward if curve.pace.speed > 0 else 1 - forward

@@ -84,8 +84,8 @@ def _row(
         kept.remove(max(kept, key=lambda n: buttons[n].rank))
     cells: dict[int, Rect] = {}
     left = room.x + (room.width - _wide(buttons, kept) * side) / 2
-    for place, n in enumerate(kept):
-        left += _before(buttons, kept, place) * side
+    for slot, n in enumerate(kept):
+        left += _before(buttons, kept, slot) * side
         cells[n] = Rect(left, top, _width(buttons[n]) * side, side)
         left += _width(buttons[n]) * side
     return cells
@@ -117,16 +117,16 @@ def _width(button: Button) -> float:
     return 1.0 if button.share is None else _SLIDER
 
 
-def _before(buttons: Sequence[Button], kept: list[int], place: int) -> float:
+def _before(buttons: Sequence[Button], kept: list[int], slot: int) -> float:
     """Return the gap before a button, wider where a group has begun since the one before."""
-    if place == 0:
+    if slot == 0:
         return 0.0
-    since = buttons[kept[place - 1] + 1 : kept[place] + 1]
+    since = buttons[kept[slot - 1] + 1 : kept[slot] + 1]
     return _BETWEEN if any(one.leads for one in since) else _GAP
 
 
 def _wide(buttons: Sequence[Button], kept: list[int]) -> float:
-    return sum(_before(buttons, kept, place) + _width(buttons[n]) for place, n in enumerate(kept))
+    return sum(_before(buttons, kept, slot) + _width(buttons[n]) for slot, n in enumerate(kept))
 
 
 def _frames(

@@ -221,7 +221,7 @@ def with_side(parts: Layout, charts: int, polygons: int, *, beside: bool) -> Lay
         if charts and parts.bar and side.width < HEAD_OF_CHART * parts.text_size + _BUTTONS * parts.button:
             foot = min(side.bottom, parts.bar.y) - _ROW_OF_BUTTONS * parts.button
             side = side._replace(height=foot - side.y)
-        left = stage._replace(width=stage.width - wide - edge / 2)
+        rest = stage._replace(width=stage.width - wide - edge / 2)
         polygon, chart = _over_each_other(side, charts, polygons, edge)
         if chart:
             high = min(chart.height, _TALLEST * stage.width * min(charts, 2))
@@ -231,9 +231,9 @@ def with_side(parts: Layout, charts: int, polygons: int, *, beside: bool) -> Lay
             max(_SHARES_BELOW[min(charts, len(_SHARES_BELOW)) - 1] if charts else 0.0, shares) * stage.height
         )
         side = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
-        left = stage._replace(height=stage.height - high - edge / 2)
+        rest = stage._replace(height=stage.height - high - edge / 2)
         polygon, chart = _beside_each_other(side, charts, polygons, edge)
-    return replace(parts, stage=left, chart=chart if charts else None, polygons=polygon if polygons else None)
+    return replace(parts, stage=rest, chart=chart if charts else None, polygons=polygon if polygons else None)
 
 
 def _over_each_other(side: Rect, charts: int, polygons: int, gap: float) -> tuple[Rect, Rect]:
@@ -264,11 +264,11 @@ def with_words(parts: Layout, block: tuple[float, float], key: float, *, above: 
     legend = Rect(hud.x, hud.y + key, wide, high - key) if high > key else None
     if above:
         taken = high + edge
-        left = stage._replace(y=stage.y + taken, height=stage.height - taken)
+        rest = stage._replace(y=stage.y + taken, height=stage.height - taken)
     else:
         taken = wide + edge
-        left = stage._replace(x=stage.x + taken, width=stage.width - taken)
-    return replace(parts, hud=hud, legend=legend, stage=left)
+        rest = stage._replace(x=stage.x + taken, width=stage.width - taken)
+    return replace(parts, hud=hud, legend=legend, stage=rest)
 
 
 def room_of(parts: Layout, *, still: bool) -> Rect:

@@ -364,15 +364,15 @@ class _Labelling:
             if None not in which[len(others) : len(wanted)]:
                 break
         placed = [one.at(n) for one, n in zip(wanted, which, strict=False) if n is not None]
-        left = [one for one, n in zip(wanted, which, strict=False) if n is None]
+        unplaced = [one for one, n in zip(wanted, which, strict=False) if n is None]
         ways = {of: WAYS[n] for (of, _), n in zip(arrows, which[len(wanted) :], strict=True) if n is not None}
-        if self.moment is not None and left:
-            led, left = self._led(left, placed)
+        if self.moment is not None and unplaced:
+            led, unplaced = self._led(unplaced, placed)
             placed += led
         free = {one.label.of for one in moving} if self.moment is None else set()
         rounds = {label.of: label.anchor.way for label in placed if label.of in free and label.anchor}
         kept = tuple(label for label in placed if label.of not in free)
-        listed = sorted((one.label for one in left if one.label.about), key=_index)
+        listed = sorted((one.label for one in unplaced if one.label.about), key=_index)
         return Names(kept, tuple(listed), ways, rounds)
 
     # What moves, and what is in the way.
@@ -932,7 +932,7 @@ class _Labelling:
                     wanted.append((vector_of(symbol), choice))
         return wanted
 
-    def _led(self, left: Sequence[_Wanted], placed: Sequence[Label]) -> tuple[list[Label], list[_Wanted]]:
+    def _led(self, unplaced: Sequence[_Wanted], placed: Sequence[Label]) -> tuple[list[Label], list[_Wanted]]:
         """Give labels of a still without a place one farther off, with a leader; return those still without.
 
         A dimension without a place is listed instead.
@@ -951,7 +951,7 @@ class _Labelling:
                     lines=np.concatenate([ground.lines, track], axis=1),
                     halves=np.append(ground.halves, np.ones(track.shape[1])),
                 )
-        for one in left:
+        for one in unplaced:
             if one.label.about or one.label.of.startswith("dead-centre"):
                 rest.append(one)
                 continue

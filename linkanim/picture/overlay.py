@@ -219,9 +219,9 @@ class Browsing:
         """What is said where nothing has the typed words."""
         return said("no title or chapter contains that")
 
-    def texts(self, place: int) -> tuple[str, str, str]:
+    def texts(self, number: int) -> tuple[str, str, str]:
         """Return the texts by which the mechanism at a place is found: its name, its title, its chapter."""
-        return searched(self.entries[place])
+        return searched(self.entries[number])
 
     @cached_property
     def matches(self) -> tuple[int, ...]:
@@ -230,9 +230,9 @@ class Browsing:
         texts = dict(enumerate((*map(self.texts, range(len(self.entries))), *files)))
         return filtered({NEW: (NEW_TITLE,), **texts} if self.has_new else texts, self.typed)
 
-    def file_at(self, place: int) -> OwnFile | None:
+    def file_at(self, number: int) -> OwnFile | None:
         """Return the file at a place; None where there is a mechanism, or nothing."""
-        behind = place - len(self.entries)
+        behind = number - len(self.entries)
         return self.own[behind] if 0 <= behind < len(self.own) else None
 
     def filtered(self, typed: str) -> Self:

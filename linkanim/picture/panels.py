@@ -298,9 +298,9 @@ class Panels:
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""
-        place, margin = self.board.layout.lists, self.board.margin
+        lists, margin = self.board.layout.lists, self.board.margin
         foot = self.board.layout.size[1] - margin - drawn.get_height()
-        return round(place.x), max(foot, margin) if place.y > margin else margin
+        return round(lists.x), max(foot, margin) if lists.y > margin else margin
 
     def _keep(self, make: Any, value: Any, slot: object = None) -> Any:
         """Return `make` of the board and a value, cached until the slot is asked for another value."""

@@ -205,8 +205,8 @@ class Picture:
 
     def _between(self, pose: Pose, swing: SwingShown) -> Places:
         """Return where joints are between those of another closure and their own: dyads turn over."""
-        left = in_unit(swing.left, self.look.unit).pose(pose.phase, 0)
-        there, here = (self.drawing.places(one) for one in (left, pose))
+        departed = in_unit(swing.left, self.look.unit).pose(pose.phase, 0)
+        there, here = (self.drawing.places(one) for one in (departed, pose))
         return {name: there[name] + swing.share * (place - there[name]) for name, place in here.items()}
 
     def _of_modes(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:

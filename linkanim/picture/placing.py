@@ -54,9 +54,9 @@ class Alternatives(NamedTuple):
     rank: int = 1
     ordered: bool = False
 
-    def at(self, place: int) -> Alternatives:
+    def at(self, number: int) -> Alternatives:
         """Return the label with one of its places alone."""
-        some = slice(place, place + 1)
+        some = slice(number, number + 1)
         return self._replace(
             places=self.places[:, some],
             price=self.price[some],

@@ -116,15 +116,15 @@ class Polygon:
         pole = self.pole(pose.input_speed)
         drawn = self._arrows(pose, pole, scale)
         dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
-        symbols, left = self._symbols(drawn, pole)
+        symbols, unnamed = self._symbols(drawn, pole)
         layers, captions = [*self._drawn(drawn), dot], [self._title, *symbols]
-        if scale > 0 and left and self.shown is not None and self.lists:
-            every = self._rows(left, scale, per)
+        if scale > 0 and unnamed and self.shown is not None and self.lists:
+            every = self._rows(unnamed, scale, per)
             wide = self._widest(every)
             if not self.aside and not self._corner(every, wide, drawn, symbols)[1]:
                 return replace(self, aside=min(wide + self.pen.small, 0.5 * self.rect.width)).group(pose)
-            for most in range(len(every), min(len(left), 2) - 1, -1):
-                rows = self._rows(left, scale, per, most)
+            for most in range(len(every), min(len(unnamed), 2) - 1, -1):
+                rows = self._rows(unnamed, scale, per, most)
                 corner, free = self._corner(rows, self._widest(rows), drawn, symbols)
                 if free:
                     captions += self._listed(rows, corner)
@@ -264,7 +264,7 @@ class Polygon:
         origin, way = "o_{v}" if self.order == 1 else "o_{a}", self._placing.pole
         size = (float(pen.type.width(origin, small)), float(small))
         at = pole + pushed(way, 2.4 * pen.line, size, False)
-        captions, taken, left = (
+        captions, taken, unnamed = (
             [self._written(origin, at, pen.theme.ink)],
             [*self._words, _rect(at, size)],
             [],
@@ -278,11 +278,11 @@ class Polygon:
             inside = room.holds(rect.x, rect.y) and room.holds(rect.right, rect.bottom)
             short = abs(arrow.reach) < _LABELLED * small
             if way_ is None or short or not inside or any(rect.meets(one) for one in taken):
-                left.append(arrow)
+                unnamed.append(arrow)
                 continue
             taken.append(rect)
             captions.append(self._written(symbol, middle, self._colour(arrow.side.sort)))
-        return captions, left
+        return captions, unnamed
 
     @property
     def _within(self) -> Rect:
@@ -339,7 +339,7 @@ class Polygon:
         return max(self.pen.type.width(text, self.pen.small) for text, _ in rows)
 
     def _rows(
-        self, left: list[Arrow], scale: float, per: str, most: int | None = None
+        self, unnamed: list[Arrow], scale: float, per: str, most: int | None = None
     ) -> list[tuple[str, Colour]]:
         """Return symbols and sizes of vectors without a symbol beside them: the largest, `most` of them.
 
@@ -348,13 +348,17 @@ class Polygon:
         rows, unit_ = list[tuple[str, Colour]](), f"{self.figure.scene.length_unit}{per}"
         room = max(int((self.rect.height - 2.4 * self.pen.text) / (_ROW * self.pen.small)), 1)
         most = room if most is None else min(most, room)
-        listed = sorted(left, key=lambda arrow: -abs(arrow.reach))[: most - 1] if len(left) > most else left
+        listed = (
+            sorted(unnamed, key=lambda arrow: -abs(arrow.reach))[: most - 1]
+            if len(unnamed) > most
+            else unnamed
+        )
         for arrow in listed:
             size = abs(arrow.reach) / scale
             words = f"{arrow.side.symbol} = {three_digits(size) if size >= 1e-3 else '0'} {unit_}"
             rows.append((words, self._colour(arrow.side.sort)))
-        if len(listed) < len(left):
-            rows.append((said("and {count} smaller", count=len(left) - len(listed)), self.pen.theme.dim))
+        if len(listed) < len(unnamed):
+            rows.append((said("and {count} smaller", count=len(unnamed) - len(listed)), self.pen.theme.dim))
         return rows
 
     def _corner(

@@ -91,16 +91,16 @@ class Grid(NamedTuple):
         row = min(max(self.top + rows, 0), max(len(self.rows) - 1, 0))
         return self.shape.showing(row, row)
 
-    def neighbour(self, place: int, rows: int) -> int:
+    def neighbour(self, number: int, rows: int) -> int:
         """Return the mechanism nearest to a place, `rows` further down; the first row follows the last.
 
         The same place where there are no rows.
         """
         if not self.rows:
-            return place
-        here = next((n for n, row in enumerate(self.rows) if place in row), 0)
+            return number
+        here = next((n for n, row in enumerate(self.rows) if number in row), 0)
         row = self.rows[(here + rows) % len(self.rows)]
-        return row[min(self.rows[here].index(place), len(row) - 1)] if place in self.rows[here] else row[0]
+        return row[min(self.rows[here].index(number), len(row) - 1)] if number in self.rows[here] else row[0]
 
     @property
     def seen(self) -> range:
@@ -120,9 +120,9 @@ class Grid(NamedTuple):
         share = (y - track.y) / max(track.height, 1.0)
         return min(max(round(share * count - len(self.seen) / 2), 0), max(count - 1, 0))
 
-    def whole(self, place: int) -> bool:
+    def whole(self, number: int) -> bool:
         """Return whether a mechanism's place is visible from top to bottom."""
-        return place in self.cells and self.cells[place].bottom <= self.room.bottom + 1
+        return number in self.cells and self.cells[number].bottom <= self.room.bottom + 1
 
 
 def grid(size: tuple[int, int], browsing: Browsing) -> Grid:
@@ -189,13 +189,13 @@ class ShelfRows:
         return grid if len(grid.seen) >= len(self.rows) else grid._replace(track=self._track)
 
 
-def _chapter(browsing: Browsing, place: int) -> str:
+def _chapter(browsing: Browsing, number: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
-    if place == NEW:  # the empty sheet stands first in the first chapter
+    if number == NEW:  # the empty sheet stands first in the first chapter
         return next((_chapter(browsing, n) for n in browsing.matches if n != NEW), said(MINE))
-    if browsing.file_at(place):
+    if browsing.file_at(number):
         return said(MINE)
-    name = browsing.texts(place)[2] or said("opened")
+    name = browsing.texts(number)[2] or said("opened")
     return name[:1].upper() + name[1:]
 
 

@@ -72,10 +72,10 @@ class RamTrack:
 
     def at(self, paper: float) -> float:
         """Return where the ram has to be at a place of the paper (mm)."""
-        place = min(max(paper, 0.0), len(self.places) - 1.001)
-        first = int(place)
+        sample = min(max(paper, 0.0), len(self.places) - 1.001)
+        first = int(sample)
         low, high = self.places[first : first + 2]
-        return low + (place - first) * (high - low)
+        return low + (sample - first) * (high - low)
 
     def share(self, scene: Scene, phase: float) -> float:
         """Return where the ram is at a phase of the scene: 0 at its back dead centre, 1 forward."""
@@ -311,10 +311,10 @@ class FollowRun(Game):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the paper ahead of the ram, and the score beside it."""
-        left = 1.0 - self.outside / _SLACK
+        remaining = 1.0 - self.outside / _SLACK
         bars = (
             ScoreBar(said("between the lines"), f"{self.metres:.2f} m", self.passed / (1e3 * LENGTH)),
-            ScoreBar(said("slack"), f"{max(_SLACK - self.outside, 0) / FRAMES_PER_SECOND:.1f} s", left),
+            ScoreBar(said("slack"), f"{max(_SLACK - self.outside, 0) / FRAMES_PER_SECOND:.1f} s", remaining),
         )
         choices = tuple(Choice(f"{n}", said(words)) for n, words in enumerate(_WIDTHS, 1))
         best = said("best {score}", score=f"{self.best / 1e3:.2f} m")

@@ -111,11 +111,11 @@ class Predict(Game):
         The first time it is the same question, then others of its kind, until one is answered right.
         """
         answers = iter(self.done[COUNT:])
-        for place in range(len(self.missed)):
+        for number in range(len(self.missed)):
             for time in range(TRIES):
                 answer = next(answers, None)
                 if answer is None:
-                    return place, time
+                    return number, time
                 if answer.right:
                     break
         return None

@@ -279,9 +279,9 @@ def closing(state: State) -> State | None:
     return with_toast(replace(state, sheet=replace(sheet, closes=True)), said(_MEANT))
 
 
-def put(state: State, place: int) -> State:
+def put(state: State, number: int) -> State:
     """Put on a mechanism of the shelf, or an empty sheet."""
-    return new(state.unlisted, None) if place == NEW else put_on(state, place)
+    return new(state.unlisted, None) if number == NEW else put_on(state, number)
 
 
 def _shown(state: State, building: Building, *, live: bool = False) -> State:
@@ -500,12 +500,12 @@ def accept(state: State, _: None) -> State:
     return _accepted(state, None)
 
 
-def offer(state: State, place: int) -> State:
+def offer(state: State, number: int) -> State:
     """Carry out another of the meanings of the last drag."""
     sheet = state.building
     if sheet is None or sheet.grip or sheet.meant is None:
         return state
-    return _shown(state, sheet.offers[place % len(sheet.offers)].building)
+    return _shown(state, sheet.offers[number % len(sheet.offers)].building)
 
 
 def cursor(state: State, at: tuple[float, float]) -> State:
@@ -682,11 +682,11 @@ def _in_rows(work: Callable[[State, BuildSheet, Any], State]) -> Handler:
     return handle
 
 
-def _row_chosen(state: State, sheet: BuildSheet, place: int) -> State:
+def _row_chosen(state: State, sheet: BuildSheet, row: int) -> State:
     rows = rows_of_all(sheet.building.draft)
     if not rows:
         return state
-    one = rows[place % len(rows)]
+    one = rows[row % len(rows)]
     return _with(state, building=replace(choosing(sheet.building, one.thing), row=one.place))
 
 

@@ -60,8 +60,8 @@ class Clock:
 
     def _coasted(self, frame: float) -> float:
         """Return the phase gained since then: the extra speed falls with the square of the time left."""
-        left = 1.0 - min(max(frame - self.since, 0.0), COAST_FRAMES) / COAST_FRAMES
-        return self.coast * COAST_FRAMES / FRAMES_PER_SECOND / 3.0 * (1.0 - left**3)
+        remaining = 1.0 - min(max(frame - self.since, 0.0), COAST_FRAMES) / COAST_FRAMES
+        return self.coast * COAST_FRAMES / FRAMES_PER_SECOND / 3.0 * (1.0 - remaining**3)
 
     def pause(self, frame: int, paused: bool) -> Self:
         """Return the clock paused or running from `frame` on, phase continuous."""

@@ -78,8 +78,8 @@ def bar(state: State, pointed: int | None = None) -> CommandBar | None:
     """Return the bar while it shows: for three seconds after the mouse or a finger has moved."""
     if state.last_mouse_move is None:
         return None
-    left = state.last_mouse_move + MOUSE_FRAMES - state.frame
-    eighths = min(8 * left // _FADING, 8)
+    remaining = state.last_mouse_move + MOUSE_FRAMES - state.frame
+    eighths = min(8 * remaining // _FADING, 8)
     if eighths <= 0:
         return None
     buttons = _buttons(state)

@@ -82,13 +82,13 @@ def mechanism(state: State, further: int) -> State:
     return put_on(state, (state.place + further) % len(state.shelf))
 
 
-def select(state: State, place: int) -> State:
+def select(state: State, number: int) -> State:
     """Choose a place in the chapter of the present scene; outside the catalogue, in the first chapter."""
     all_, chapter = chapters(), chapter_of(state.scene.name)
     members = all_[chapter] if chapter else next(iter(all_.values()))
-    if place >= len(members) or members[place] not in state.shelf:
+    if number >= len(members) or members[number] not in state.shelf:
         return state
-    return put_on(state, state.shelf.index(members[place]))
+    return put_on(state, state.shelf.index(members[number]))
 
 
 def closure(state: State, _: None) -> State:
@@ -137,11 +137,11 @@ def _verdict(info: Info) -> tuple[str, bool, bool]:
     return info.class_name, "<" in rule, ">" in rule
 
 
-def put_on(state: State, place: int) -> State:
+def put_on(state: State, number: int) -> State:
     """Start a mechanism of the shelf as it was left, else as in its file; paused if the last one was."""
     state = drop(state, None)
-    entry, kept = state.shelf[place], _kept_edits(state)
-    was = next((one for one in kept if one.place == place), None)
+    entry, kept = state.shelf[number], _kept_edits(state)
+    was = next((one for one in kept if one.place == number), None)
     scene = proved(was.scene if was else load(entry) if isinstance(entry, str) else entry, 0.0)
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
@@ -149,16 +149,16 @@ def put_on(state: State, place: int) -> State:
     bare = replace(bare, arrived=state.frame)
     editing = was.editing if was else Editing()
     others = tuple(one for one in kept if one is not was)
-    return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
+    return replace(bare, editing=editing, kept=others, scene=scene, place=number, clock=clock, look=look)
 
 
-def put_scene(state: State, scene: Scene, place: int, phase: float) -> State:
+def put_scene(state: State, scene: Scene, number: int, phase: float) -> State:
     """Put a scene on as it is, at a place of the shelf whose edits are dropped; its clock is the caller's."""
     state = drop(state, None)
-    others = tuple(one for one in _kept_edits(state) if one.place != place)
+    others = tuple(one for one in _kept_edits(state) if one.place != number)
     bare = replace(state.unlisted.without(Sketch), held=None, glide=None, turned=None, faded=state.frame)
     bare = replace(bare, arrived=state.frame, editing=Editing(), kept=others)
-    return replace(bare, scene=proved(scene, phase), place=place)
+    return replace(bare, scene=proved(scene, phase), place=number)
 
 
 def _kept_edits(state: State) -> tuple[Edited, ...]:
@@ -207,11 +207,11 @@ def strip(state: State, token: str) -> State:
     return replace(state, look=replace(state.look, chart=",".join(charted) or None))
 
 
-def put(state: State, place: int) -> State:
+def put(state: State, number: int) -> State:
     """Show a scene by its place on the shelf, and close the shelf."""
-    if not 0 <= place < len(state.shelf):
+    if not 0 <= number < len(state.shelf):
         return state
-    return put_on(state, place)
+    return put_on(state, number)
 
 
 # Actions on the list of dimensions, and undo and redo.

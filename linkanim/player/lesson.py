@@ -192,13 +192,13 @@ def _phase(part: Section, scene: Scene) -> float:
             return 0.0
         is_angle = scene.linkage.drive.coordinate.is_angle
         text = part.need("pose")
-        place = float(angle(text)) if is_angle else length(text, unit=scene.length_unit)
+        coordinate = float(angle(text)) if is_angle else length(text, unit=scene.length_unit)
     except LinkanimError as error:
         raise part.error("phase" if "phase" in part else "pose", str(error)) from None
-    if not scene.mechanism.comes_to(place):
+    if not scene.mechanism.comes_to(coordinate):
         info = scene.info
         raise part.error("pose", f"the {info.input_name} does not come there; it {info.motion_words}")
-    return scene.mechanism.phase_of(place, 0.0)
+    return scene.mechanism.phase_of(coordinate, 0.0)
 
 
 def _look(part: Section, scene: Scene) -> tuple[Look, int]:
@@ -230,13 +230,13 @@ def block(state: State, source: str, own: Scene, caption: str = "") -> str:
     if clock.speed != own.linkage.drive.speed:
         values["speed"] = f"{significant(_rpm(clock), 10)} rpm"
     phase = state.phase % scene.period
-    place = scene.pose(phase, 0).coordinate
-    if abs(math.remainder(scene.mechanism.phase_of(place, 0.0) - phase, scene.period)) > _SAME:
+    coordinate = scene.pose(phase, 0).coordinate
+    if abs(math.remainder(scene.mechanism.phase_of(coordinate, 0.0) - phase, scene.period)) > _SAME:
         values["phase"] = f"{significant(phase, 12)} rad"
     elif scene.linkage.drive.coordinate.is_angle:
-        values["pose"] = f"{significant(math.degrees(place), 12)} deg"
+        values["pose"] = f"{significant(math.degrees(coordinate), 12)} deg"
     else:
-        values["pose"] = f"{significant(place, 12)} {scene.length_unit}"
+        values["pose"] = f"{significant(coordinate, 12)} {scene.length_unit}"
     values["running"] = not clock.paused
     told = {name: one for name, one in stored.written_look(state.look).items() if name not in _OF_THE_WINDOW}
     if state.constructed:

@@ -242,11 +242,11 @@ def _without_own(sketch: PathSketch) -> dict[str, object]:
     return {"answers": sketch.answers[own:], "chosen": max(sketch.chosen - own, 0)}
 
 
-def cognate(state: State, place: int) -> State:
+def cognate(state: State, number: int) -> State:
     """Show a cognate of the answer instead of it: one of those that turn fully."""
     sketch = state.drawing
     cognates = [one for one in sketch.cognates if one] if sketch else []
-    if sketch is None or not 0 <= place < len(cognates):
+    if sketch is None or not 0 <= number < len(cognates):
         return (
             with_toast(state, said("none of its cognates turns fully"))
             if sketch and sketch.follows
@@ -254,11 +254,11 @@ def cognate(state: State, place: int) -> State:
         )
     from linkanim.synthesis.front import names_of
 
-    answers = (*sketch.answers[: sketch.chosen], cognates[place], *sketch.answers[sketch.chosen + 1 :])
+    answers = (*sketch.answers[: sketch.chosen], cognates[number], *sketch.answers[sketch.chosen + 1 :])
     figures = [one.figures for one in answers if isinstance(one, tuple) and one.size > 0]
     names = names_of(figures) if len(figures) == len(answers) == len(sketch.names) else ()
     taken = replace(sketch.undialled, answers=answers, names=names, picked=True, earlier=sketch)
-    state = replace(exchanged(state, taken.scene_of(cognates[place])), glide=None, faded=state.frame)
+    state = replace(exchanged(state, taken.scene_of(cognates[number])), glide=None, faded=state.frame)
     return state.with_mode(taken)
 
 
@@ -307,10 +307,10 @@ def cognate_at(screen: Sight, x: float, y: float, reach: float) -> int | None:
 
     pose, at = screen.state.displayed.pose(screen.state.phase, 0), complex(*screen.world(x, y))
     reach *= abs(complex(*screen.world(1.0, 0.0)) - complex(*screen.world(0.0, 0.0)))
-    for place, number in enumerate(numbers):
+    for row, number in enumerate(numbers):
         sides = cognate_sides(pose, number)
         if any(abs(from_span(begin, end, at)) <= reach for begin, end in sides):
-            return place
+            return row
     return None
 
 

@@ -27,13 +27,13 @@ def _toggle(state: State, _: None) -> State:
     return state.unlisted.with_mode(OpenClosures((), 0, state.frame, scene=state.scene))
 
 
-def _put_together(state: State, place: int) -> State:
+def _put_together(state: State, number: int) -> State:
     """Show a closure by its place, and close the others; undo goes back."""
     opened, bare = state.of(OpenClosures), state.without(OpenClosures)
     try:
         known = opened is not None and opened.scene is state.scene and opened.is_ready
         choices = opened.closures if opened and known else closures(state.scene)
-        scene = choices[place].scene if 0 <= place < len(choices) else state.scene
+        scene = choices[number].scene if 0 <= number < len(choices) else state.scene
         if scene is state.scene:
             return bare
         return followed(replace(bare, editing=with_undo(bare.editing, state.scene)), scene)
@@ -88,9 +88,9 @@ class OpenClosures(OpenShelf):
         same = said(", curve {curve}", curve=curve) if curve.startswith("that") else ""
         return number, f"{number}: {words}; {motion}{same}", class_name
 
-    def takes(self, place: int) -> tuple[Action, ...]:
+    def takes(self, number: int) -> tuple[Action, ...]:
         """Return the actions that show what is at a place."""
-        return (Action("take_closure", place),)
+        return (Action("take_closure", number),)
 
     def aged(self, state: State) -> State:
         """Look for the closures, in the second frame."""

@@ -57,9 +57,9 @@ def _move(state: State, further: int) -> State:
     return _changed(state, moved)
 
 
-def _point(state: State, place: int) -> State:
+def _point(state: State, number: int) -> State:
     """Choose a place on the shelf."""
-    return _changed(state, lambda one: replace(one, chosen=place) if place in one.matches else one)
+    return _changed(state, lambda one: replace(one, chosen=number) if number in one.matches else one)
 
 
 def _top(state: State, row: int) -> State:
@@ -196,10 +196,10 @@ class OpenShelf(Browsing, Mode):
     }
     gives_way = True
 
-    def takes(self, place: int) -> tuple[Action, ...]:
+    def takes(self, number: int) -> tuple[Action, ...]:
         """Return the actions that show what is at a place: a mechanism, or a user's file."""
-        file = self.file_at(place)
-        return (Action("shelf"), Action("open_file", file.name)) if file else (Action("put", place),)
+        file = self.file_at(number)
+        return (Action("shelf"), Action("open_file", file.name)) if file else (Action("put", number),)
 
     def typing(self, state: State) -> bool:
         """Return whether the shelf is filtered."""

@@ -126,16 +126,16 @@ def _stands_on(scene: Scene, row: tuple[float, ...], size: float) -> bool:
     return all(min((abs(pin - at) for at in pins), default=size) < _SAME * size for pin in own)
 
 
-def choose(state: State, place: int) -> State:
+def choose(state: State, number: int) -> State:
     """Show another of the answers."""
     sketch = state.sketch
-    if sketch is None or sketch.held is not None or not 0 <= place < len(sketch.answers):
+    if sketch is None or sketch.held is not None or not 0 <= number < len(sketch.answers):
         return state
-    if sketch.answer is sketch.answers[place]:
+    if sketch.answer is sketch.answers[number]:
         return state
-    scene = sketch.scene_of(sketch.answers[place])
+    scene = sketch.scene_of(sketch.answers[number])
     state = replace(exchanged(state, scene), glide=None, faded=state.frame)
-    return state.with_mode(sketch.picking(place))
+    return state.with_mode(sketch.picking(number))
 
 
 def undo(state: State, _: None) -> State:

@@ -579,9 +579,9 @@ class Sketch(Mode, ABC):
     def at_rest(self) -> Self:
         """The sketch with nothing begun."""
 
-    def picking(self, place: int) -> Self:
+    def picking(self, number: int) -> Self:
         """Return the sketch with another of the answers shown, as the user asked."""
-        return replace(self, chosen=place)
+        return replace(self, chosen=number)
 
     @abstractmethod
     def answer_from(self, numbers: tuple[float, ...]) -> Any:
@@ -671,9 +671,9 @@ class PathSketch(Sketch):
         """The sketch with nothing dragged, and the dial at the chosen answer."""
         return replace(self, dial=None, dialled=None, held=None, picked=False)
 
-    def picking(self, place: int) -> PathSketch:
+    def picking(self, number: int) -> PathSketch:
         """Return the sketch with another of the answers shown, as the user asked."""
-        return replace(self.undialled, chosen=place, picked=True)
+        return replace(self.undialled, chosen=number, picked=True)
 
     def answer_from(self, numbers: tuple[float, ...]) -> PathAnswer:
         """Return the answer that is all of these numbers."""

@@ -107,7 +107,7 @@ class _ListedJoint(NamedTuple):
     angle: float = 0.0
 
 
-def _listed(joints: Sequence[_ListedJoint], where: str, drive: dict[str, Any], left: list[str]) -> Foreign:
+def _listed(joints: Sequence[_ListedJoint], where: str, drive: dict[str, Any], dropped: list[str]) -> Foreign:
     """Return the linkage of a list of joints, which are called P0, P1, ...; a usual drive where none is."""
     points = {f"P{n}": joint.place for n, joint in enumerate(joints[: MOST_JOINTS + 1])}
     links: dict[str, list[str]] = {GROUND: []}
@@ -124,13 +124,13 @@ def _listed(joints: Sequence[_ListedJoint], where: str, drive: dict[str, Any], l
             slides[f"slide {n}"] = {**of, "on": carrier, "angle": f"{joint.angle:.15g} deg"}
     loose = [name for name, on in links.items() if len(on) < 2 and name != GROUND and not _slid(name, slides)]
     kept = {name: on for name, on in links.items() if name not in loose}
-    left = [*left, *(f"link {name}, which has one joint" for name in loose)]
+    dropped = [*dropped, *(f"link {name}, which has one joint" for name in loose)]
     used = {point for on in kept.values() for point in on}
     if not drive:
         drive = _usual_drive(kept)
-        left.insert(0, "which joint is driven: the first one on the ground that can be")
+        dropped.insert(0, "which joint is driven: the first one on the ground that can be")
     kept_points = {name: place for name, place in points.items() if name in used}
-    return Foreign(kept_points, kept, slides, drive, tuple(left))
+    return Foreign(kept_points, kept, slides, drive, tuple(dropped))
 
 
 def _slid(link: str, slides: Mapping[str, Mapping[str, str]]) -> bool:
@@ -204,12 +204,12 @@ def pmks(text: str, where: str) -> Foreign:
             f"{where}: joint {driven[0]} drives by sliding, and says not from where to where; give it a pin "
             "that turns, or write the scene with [drive] slide, from and to"
         )
-    left = [f"the input at joint {n}, a further one" for n in driven[1:]]
+    dropped = [f"the input at joint {n}, a further one" for n in driven[1:]]
     speed = re.search(r"set=[^&\n]*?\bs(-?[\d.]+)", text)
     drive = _motor(f"P{driven[0]}", joints[driven[0]].links) if driven else {}
     if speed and driven and (turning := _number(speed[1], where, "the speed")):
         drive["speed"] = f"{turning:g} rpm"
-    return _listed(joints, where, drive, left)
+    return _listed(joints, where, drive, dropped)
 
 
 def _pmks_joint(cells: list[str], where: str, n: int) -> tuple[_ListedJoint, bool]:
@@ -374,9 +374,9 @@ class _PlusReader:
         names = _names(self.joints, {name: joint.name for name, joint in self.joints.items()}, "P")
         used = {joint for on in links.values() for joint in on}
         slides = {f"slide {names[pin]}": self._slide(name, pin, links, names) for name, pin in pins.items()}
-        drive, left = self._drive(links, names)
+        drive, dropped = self._drive(links, names)
         if self.forces:
-            left.append("forces")
+            dropped.append("forces")
         link_names = {GROUND: GROUND} | _names([name for name in links if name != GROUND], {}, "L")
         for slide in slides.values():
             slide |= {key: link_names[slide[key]] for key in ("on", "link") if key in slide}
@@ -388,7 +388,7 @@ class _PlusReader:
             {link_names[link]: [names[joint] for joint in on] for link, on in links.items()},
             slides,
             drive,
-            ("masses and colours", *left),
+            ("masses and colours", *dropped),
             unit,
         )
 
@@ -502,11 +502,11 @@ def motiongen(text: str, where: str) -> Foreign:
             named[GROUND] += through
         elif len(through) > 1:
             named[f"L{n}"] = through
-    drive, left = _rotary(motors, names, named, where)
+    drive, dropped = _rotary(motors, names, named, where)
     points = {name: (x, y) for name, (x, y) in zip(names.values(), places, strict=True)}
     used = {point for on in named.values() for point in on}
     kept = {name: place for name, place in points.items() if name in used}
-    return Foreign(kept, named, {}, drive or _usual_drive(named), tuple(left), unit)
+    return Foreign(kept, named, {}, drive or _usual_drive(named), tuple(dropped), unit)
 
 
 def _objects(objects: Any) -> list[dict[str, Any]]:
@@ -531,8 +531,8 @@ def _rotary(
     ends = [next((name for name, on in links.items() if {at, end} <= {*on}), "") for end in (base, to)]
     if "" in (at, *ends) or ends[0] == ends[1]:
         raise BadInput(f"{where}: its actuator names no joint with a link to either side")
-    left = ["the motor's speed, whose unit is not published", *["a further actuator"] * len(further)]
-    return {"joint": at, "links": ends}, left
+    dropped = ["the motor's speed, whose unit is not published", *["a further actuator"] * len(further)]
+    return {"joint": at, "links": ends}, dropped
 
 
 # Files of Linkage, arrays of LInK, and plain tables.
@@ -551,7 +551,7 @@ def linkage2(text: str, where: str) -> Foreign:
     points: dict[str, tuple[float, float]] = {}
     ground: list[str] = []
     drive: dict[str, Any] = {}
-    left: list[str] = []
+    dropped: list[str] = []
     for one in root.iter("connector"):
         if one.get("x") is None:
             continue  # a link's mention of one
@@ -568,19 +568,19 @@ def linkage2(text: str, where: str) -> Foreign:
             speed = _number(one.get("rpm") or "15", where, f"the speed of connector {one.get('id')}")
             drive = {"joint": name, "speed": f"{-speed:g} rpm"}
         elif one.get("input") == "true":
-            left.append(f"the input at {name}, the second one")
+            dropped.append(f"the input at {name}, the second one")
     links: dict[str, list[str]] = {GROUND: ground}
     for one in (*root.iter("Link"), *root.iter("link")):
         on = [f"P{part.get('id')}" for part in one.iter("connector")]
         if one.get("actuator") == "true":
             raise BadInput(f"{where}: link {one.get('id')} is an actuator; drive it by a slide of [points]")
         if one.get("gear") == "true":
-            left.append(f"the teeth of link {one.get('id')}")
+            dropped.append(f"the teeth of link {one.get('id')}")
         if len(on) > 1 and not {*on} <= {*ground}:
             links[f"L{one.get('id')}"] = on
     used = {point for on in links.values() for point in on}
     kept = {name: place for name, place in points.items() if name in used}
-    return Foreign(kept, links, {}, drive or _usual_drive(links), tuple(left))
+    return Foreign(kept, links, {}, drive or _usual_drive(links), tuple(dropped))
 
 
 def link_arrays(data: bytes, where: str) -> Foreign:

@@ -105,18 +105,18 @@ def solve_many(
         motion = scene.solve(phase=phases, speed=w, acceleration=a, derivatives=derivatives)
         return Many(scene, phases, **{kind: getattr(motion, kind) for kind in (*VECTORS, *NUMBERS)})
     form = _form(scene, tuple(number.key for number in chosen))
-    places, results, left = form.solved(rows, phases, (w, a), derivatives)
+    places, results, unsolved = form.solved(rows, phases, (w, a), derivatives)
     for number, row in zip(chosen, rows, strict=True):
         if number.type.measure == "length" and not row.min() > SMALLEST:
-            left |= ~(row > SMALLEST)
+            unsolved |= ~(row > SMALLEST)
     pose = partial(Scene.pose, derivatives=derivatives, speed=w, acceleration=a)
     if places is None:
         places, rows_of = _layout_of(pose(scene, 0.0), derivatives)
         results = np.full((rows_of, count), np.nan)
-    results[:, left] = np.nan
+    results[:, unsolved] = np.nan
     results_of = {kind: arrays(places, results, (count,), kind) for kind in places.places}
     read: dict[tuple[float, ...], Scene | None] = {}
-    for n in np.flatnonzero(left):
+    for n in np.flatnonzero(unsolved):
         own = tuple(float(row[n]) for row in rows)
         if own not in read:
             read[own] = _with(scene, {number.key: value for number, value in zip(chosen, own, strict=True)})

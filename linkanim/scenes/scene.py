@@ -313,8 +313,8 @@ class Scene:
         at, (first, last) = given_numbers("travel", travel), self.linkage.drive.actuator.stated_lengths
         half = (last - first) / 2
         with np.errstate(all="ignore"):
-            gone, left = (at - first) / half, (last - at) / half
-            phase = 2 * np.arctan2(np.sqrt(gone), np.sqrt(left))
+            gone, ahead = (at - first) / half, (last - at) / half
+            phase = 2 * np.arctan2(np.sqrt(gone), np.sqrt(ahead))
             if speed is None:
                 return self.solve(phase=phase, acceleration=acceleration, **kept)
             slope = half * np.sin(phase)

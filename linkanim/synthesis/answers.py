@@ -415,23 +415,23 @@ def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
     """Return where, near to given places, the coupler point is nearest to each point: Newton's steps."""
     best = places.copy()
     least, reach = np.abs(answer.traced(best) - points), np.full(len(best), _FARTHEST_STEP)
-    left = np.arange(len(best))
+    active = np.arange(len(best))
     for _ in range(_FOOT_STEPS):
-        motion = answer.scene.solve(**{answer.by: best[left]}, speed=1.0)  # type: ignore[arg-type]
-        missing = points[left] - as_complex(motion.position["P"])
+        motion = answer.scene.solve(**{answer.by: best[active]}, speed=1.0)  # type: ignore[arg-type]
+        missing = points[active] - as_complex(motion.position["P"])
         rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
         with np.errstate(all="ignore"):
             square = np.abs(rate) ** 2
             bend = square - (np.conj(turn) * missing).real
             step = np.nan_to_num((np.conj(rate) * missing).real / np.where(bend > 0, bend, square))
-        step = np.clip(step, -reach[left], reach[left])
-        off = np.abs(answer.traced(best[left] + step) - points[left])
-        nearer = off < least[left]
-        best[left] += np.where(nearer, step, 0.0)
-        least[left] = np.where(nearer, off, least[left])
-        reach[left] = np.where(nearer, _FARTHEST_STEP, np.abs(step) / 4)
-        left = left[np.abs(step) > _LAST_STEP]
-        if not len(left):
+        step = np.clip(step, -reach[active], reach[active])
+        off = np.abs(answer.traced(best[active] + step) - points[active])
+        nearer = off < least[active]
+        best[active] += np.where(nearer, step, 0.0)
+        least[active] = np.where(nearer, off, least[active])
+        reach[active] = np.where(nearer, _FARTHEST_STEP, np.abs(step) / 4)
+        active = active[np.abs(step) > _LAST_STEP]
+        if not len(active):
             break
     return best
 

@@ -325,13 +325,13 @@ def _freudenstein(scene: Scene, purpose: FunctionPurpose, r1: float | None) -> I
 
     `r1` is the ground's length, None for a slider.
     """
-    theta, place = np.array(purpose.input), np.array(purpose.output)
+    theta, output = np.array(purpose.input), np.array(purpose.output)
     if r1 is None:
-        form, right = "K₁ s cos θ + K₂ sin θ + K₃ = s²", place**2
-        rows = np.column_stack([place * np.cos(theta), np.sin(theta), np.ones_like(theta)])
+        form, right = "K₁ s cos θ + K₂ sin θ + K₃ = s²", output**2
+        rows = np.column_stack([output * np.cos(theta), np.sin(theta), np.ones_like(theta)])
     else:
-        form, right = "K₁ cos ψ − K₂ cos θ + K₃ = cos(θ − ψ)", np.cos(theta - place)
-        rows = np.column_stack([np.cos(place), -np.cos(theta), np.ones_like(theta)])
+        form, right = "K₁ cos ψ − K₂ cos θ + K₃ = cos(θ − ψ)", np.cos(theta - output)
+        rows = np.column_stack([np.cos(output), -np.cos(theta), np.ones_like(theta)])
     k1, k2, k3 = np.linalg.lstsq(rows, right, rcond=None)[0].tolist()
     said = "; ".join(
         f"{four_digits(a)} K₁ {_joined(b)} K₂ + K₃ = {four_digits(c)}"

@@ -158,12 +158,12 @@ def _points(drawn: str, where: str) -> Complex:
 
 def _pieces(drawn: str, where: str) -> Iterator[tuple[str, list[float]]]:
     """Yield each command's letter and numbers, a repeated command as several; after an M they are L."""
-    letter, values, place = "", list[float](), 0
-    while place < len(drawn):
-        match = (_FLAG if letter in ("A", "a") and len(values) in (3, 4) else _TOKEN).match(drawn, place)
+    letter, values, end = "", list[float](), 0
+    while end < len(drawn):
+        match = (_FLAG if letter in ("A", "a") and len(values) in (3, 4) else _TOKEN).match(drawn, end)
         if match is None:
-            raise BadInput(f"{where}: the path cannot be read at {drawn[place : place + 12]!r}")
-        place = match.end()
+            raise BadInput(f"{where}: the path cannot be read at {drawn[end : end + 12]!r}")
+        end = match.end()
         if match["letter"]:
             if values:
                 raise BadInput(f"{where}: the path's {letter} has too few numbers")

@@ -271,9 +271,9 @@ def _circles(points: Complex, wide: int) -> tuple[Complex, Real, Real]:
     with np.errstate(all="ignore"):
         a = (pairs[0, 2] * pairs[1, 1] - pairs[1, 2] * pairs[0, 1]) / det
         b = (pairs[1, 2] * pairs[0, 0] - pairs[0, 2] * pairs[0, 1]) / det
-        left = np.maximum(pairs[2, 2] - a * pairs[0, 2] - b * pairs[1, 2], 0.0) / wide
+        variance = np.maximum(pairs[2, 2] - a * pairs[0, 2] - b * pairs[1, 2], 0.0) / wide
         radius = np.sqrt(means[2] - a * means[0] - b * means[1] + (a * a + b * b) / 4)
-        return np.asarray((a + 1j * b) / 2), radius, np.sqrt(left) / (2 * radius)
+        return np.asarray((a + 1j * b) / 2), radius, np.sqrt(variance) / (2 * radius)
 
 
 def _levelled(arc: _Arc, points: Complex) -> _Arc:

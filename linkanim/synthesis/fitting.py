@@ -312,8 +312,8 @@ def _turned(problem: PathTask, state: _State, change: Real) -> Real:
     if problem.timing is not None:
         return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))
     traced, size = state.traced, state.candidates.rows.shape[1]
-    left = problem.curve.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
-    turn = (np.conj(traced.rate) * left).real / np.abs(traced.rate) ** 2
+    missing = problem.curve.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
+    turn = (np.conj(traced.rate) * missing).real / np.abs(traced.rate) ** 2
     gap = np.diff(state.candidates.angles, axis=1) * state.candidates.sense[:, None]
     last = (
         2 * np.pi - gap.sum(axis=1, keepdims=True) if problem.curve.closed else np.full((len(gap), 1), np.pi)

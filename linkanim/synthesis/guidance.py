@@ -375,7 +375,7 @@ def _phases_in(boxes: Sequence[Box], curve: CentreCurve) -> Real:
     for circuit in range(len(curve.circuits)):
         places = curve.at(circuit, phases)
         for box in boxes:
-            there = phases[[holds(box, place) for place in places.tolist()]]
+            there = phases[[holds(box, coordinate) for coordinate in places.tolist()]]
             there = there[:: -(-len(there) // _SAMPLES[4]) or 1]
             parts.append(np.column_stack([np.full(len(there), float(circuit)), there]))
     return np.concatenate(parts)
@@ -729,11 +729,11 @@ def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, wei
 def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> list[int]:
     """Return `count` linkages in the given order, with joints farther than `least` from all earlier ones."""
     picked: list[int] = []
-    left = order
-    while len(left) and len(picked) < count:
-        picked.append(int(left[0]))
-        off = np.abs(places[left] - places[left[0]]).max(axis=1)
-        left = left[off > least] if least else left[1:]
+    remaining = order
+    while len(remaining) and len(picked) < count:
+        picked.append(int(remaining[0]))
+        off = np.abs(places[remaining] - places[remaining[0]]).max(axis=1)
+        remaining = remaining[off > least] if least else remaining[1:]
     return picked
 
 

@@ -287,7 +287,7 @@ def member_of(scene: Scene) -> FamilyMember | None:
     return FamilyMember(family, chord, family.place_of(x), least, most)
 
 
-def moved_along(scene: Scene, place: float) -> Scene:
+def moved_along(scene: Scene, x: float) -> Scene:
     """Return the member of a scene's family at a place, 0 to 1, with the same chord.
 
     BadInput for a scene that belongs to no family.
@@ -296,7 +296,7 @@ def moved_along(scene: Scene, place: float) -> Scene:
     if member is None:
         raise BadInput(f"{scene.name}: was made for no time ratio, so it belongs to no family")
     family = member.family
-    _, _, tables = _sized(family, family.low + place * (family.high - family.low), member.chord)
+    _, _, tables = _sized(family, family.low + x * (family.high - family.low), member.chord)
     merged = {key: {**scene.document[key], **table} for key, table in tables.items()}
     return scene_from({**scene.document, **merged}, name=scene.name, where=scene.name)
 

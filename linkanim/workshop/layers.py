@@ -242,10 +242,10 @@ def _clique(nodes: int, choices: Sequence[Choice], *, bridged: bool) -> int:
                 apart[b] |= 1 << a
     largest = 0
     for first in range(nodes):
-        size, left = 1, apart[first]
-        while left:
-            best = max(_bits(left), key=lambda node: (left & apart[node]).bit_count())
-            size, left = size + 1, left & apart[best]
+        size, candidates = 1, apart[first]
+        while candidates:
+            best = max(_bits(candidates), key=lambda node: (candidates & apart[node]).bit_count())
+            size, candidates = size + 1, candidates & apart[best]
         largest = max(largest, size)
     return largest
 
@@ -304,12 +304,12 @@ def _bits(bits: int) -> Iterator[int]:
 
 def _longest(beyond: Sequence[int]) -> list[int]:
     """Return for each node the longest chain of nodes beyond it."""
-    length, left, level = [0] * len(beyond), (1 << len(beyond)) - 1, 0
-    while left:
-        free = [node for node in _bits(left) if not beyond[node] & left]
+    length, remaining, level = [0] * len(beyond), (1 << len(beyond)) - 1, 0
+    while remaining:
+        free = [node for node in _bits(remaining) if not beyond[node] & remaining]
         for node in free:
             length[node] = level
-            left ^= 1 << node
+            remaining ^= 1 << node
         level += 1
     return length
 
@@ -325,8 +325,8 @@ def _ordered(
     layers = most or nodes
     tries = [(_Below.framed(nodes, bridged=bridged), list(choices), (1 << nodes) - 1)]
     while tries:
-        known, left, changed = tries.pop()
-        order = _with_only_ways(known, left, layers, work, changed)
+        known, undecided, changed = tries.pop()
+        order = _with_only_ways(known, undecided, layers, work, changed)
         if order is None:
             continue
         if not order:
@@ -341,7 +341,7 @@ def _ordered(
 
 
 def _with_only_ways(
-    known: _Below, left: list[Choice], layers: int, work: Budget, changed: int
+    known: _Below, choices: list[Choice], layers: int, work: Budget, changed: int
 ) -> list[Choice] | None:
     """Add to what is known each way that is the only one of a choice; None where a choice has none left.
 
@@ -352,9 +352,9 @@ def _with_only_ways(
         levels, heights = (known.levels(), known.heights()) if few else ([], [])
         if few and max(levels) >= layers:
             return None
-        work.spend(len(left))
+        work.spend(len(choices))
         undecided, now = [], 0
-        for choice in left:
+        for choice in choices:
             one, other = choice
             if not (one.bits | other.bits) & changed:
                 undecided.append(choice)
@@ -372,8 +372,8 @@ def _with_only_ways(
                 undecided.append(choice)
             else:
                 now |= known.put(*ways[0])
-        left, changed = undecided, now
-    return left
+        choices, changed = undecided, now
+    return choices
 
 
 def _chain(levels: Sequence[int], heights: Sequence[int], low: NodeSet, up: NodeSet) -> int:
@@ -381,11 +381,12 @@ def _chain(levels: Sequence[int], heights: Sequence[int], low: NodeSet, up: Node
     return max(levels[node] for node in low.nodes) + max(heights[node] for node in up.nodes) + 2
 
 
-def _hardest(known: _Below, left: Sequence[Choice]) -> int:
+def _hardest(known: _Below, choices: Sequence[Choice]) -> int:
     """Return the number of the choice of which one way leaves the least room."""
     levels, heights = known.levels(), known.heights()
     chains = [
-        max(_chain(levels, heights, one, other), _chain(levels, heights, other, one)) for one, other in left
+        max(_chain(levels, heights, one, other), _chain(levels, heights, other, one))
+        for one, other in choices
     ]
     return chains.index(max(chains))
 

@@ -242,10 +242,10 @@ def refuse_thin(plates: Iterable[Plate], sizes: Sizes) -> None:
             # Slots of the ground may cross: a tongue is longer than the other slot is wide.
             between = math.inf if one[0] != one[1] and other[0] != other[1] else _between(one[:3], other[:3])
             if between < sizes.between:
-                left = f"leave {between:.2g} mm between them" if between > 0 else "run into each other"
+                gap = f"leave {between:.2g} mm between them" if between > 0 else "run into each other"
                 raise BadInput(
                     f"{plate.name}: {one[3]} and {other[3]}, {2 * one[2]:.3g} and {2 * other[2]:.3g} mm "
-                    f"wide, {left}; make them narrower (--hole, --bar), or everything larger (--fit)"
+                    f"wide, {gap}; make them narrower (--hole, --bar), or everything larger (--fit)"
                 )
 
 

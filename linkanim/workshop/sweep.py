@@ -113,14 +113,14 @@ class Cycle:
         whole, unit = np.arange(self.count) * finest, period / (self.count * finest)
         steps = self._steps(pieces, whole, finest, self._start)
         known = {k: Nearness(True, far, 0.0) for k, far in steps.far(pairs)}
-        left = {k: whole for k in range(len(pairs)) if k not in known}
-        bounds = dict.fromkeys(left, np.inf)
+        unsure_spans = {k: whole for k in range(len(pairs)) if k not in known}
+        bounds = dict.fromkeys(unsure_spans, np.inf)
         for level in range(_HALVINGS + 1):
             width = finest >> level
-            if level and left:
-                begins = np.unique(np.concatenate(list(left.values())))
+            if level and unsure_spans:
+                begins = np.unique(np.concatenate(list(unsure_spans.values())))
                 steps = self._steps(pieces, begins, width)
-            for k, own in list(left.items()):
+            for k, own in list(unsure_spans.items()):
                 i, j, asked = pairs[k]
                 near, at, sure = steps.between(i, j, own)
                 unsure = sure < asked
@@ -132,9 +132,9 @@ class Cycle:
                 elif level == _HALVINGS:
                     known[k] = Nearness(False, float(sure.min()), at * unit)
                 else:
-                    left[k] = np.sort(np.concatenate((own[unsure], own[unsure] + width // 2)))
+                    unsure_spans[k] = np.sort(np.concatenate((own[unsure], own[unsure] + width // 2)))
                     continue
-                del left[k]
+                del unsure_spans[k]
         return [known[k] for k in range(len(pairs))]
 
     def _steps(
@@ -283,9 +283,9 @@ def _meet(a: Points, b: Points) -> NDArray[np.bool_]:
     (p, u), (q, v) = _edges(a), _edges(b)
     between = q[:, None, :] - p[:, :, None]
     one, other = u[:, :, None], v[:, None, :]
-    left = _cross(one, between) * _cross(one, between + other) < 0
+    crosses = _cross(one, between) * _cross(one, between + other) < 0
     right = _cross(other, between) * _cross(other, between - one) < 0
-    meet: NDArray[np.bool_] = inside | np.any(left & right, axis=(1, 2))
+    meet: NDArray[np.bool_] = inside | np.any(crosses & right, axis=(1, 2))
     return meet
 
 

@@ -480,7 +480,7 @@ class Assembly:
     def change_points(self) -> Iterator[float]:
         """The input's places at which a root changes its sign, of loops and of dyads down the chain."""
         for loop in self.loops.values():
-            yield from (place for place, turns in loop.change_points if self.path.holds(place, turns))
+            yield from (phase for phase, turns in loop.change_points if self.path.holds(phase, turns))
         for root in self.chain.values():
             yield from map(self.path.coordinate_at, root.change_points)
 

@@ -453,8 +453,8 @@ class _Fit:
             step = np.asarray(inverse @ off[..., None])[..., 0].T
             at[:-1, waiting] = now[:-1] - fixed(step)
             size = np.abs(step).max(axis=0)
-            left = size * np.minimum(size / before, 1.0) if np.isfinite(before).all() else size
-            more = left > SOLVED_TO_ALL_DIGITS
+            error = size * np.minimum(size / before, 1.0) if np.isfinite(before).all() else size
+            more = error > SOLVED_TO_ALL_DIGITS
             waiting, before = waiting[more], size[more]
             if not waiting.size:
                 break
@@ -525,7 +525,7 @@ def _inverse_powers() -> tuple[list[int], Whole]:
     places = nodes(COUNT)
     with localcontext(context()) as here:
         here.prec = 80
-        rows = np.array([[place**k for k in range(COUNT)] for place in places], np.object_)
+        rows = np.array([[node**k for k in range(COUNT)] for node in places], np.object_)
         unit = np.array([[Decimal(int(i == k)) for k in range(COUNT)] for i in range(COUNT)], np.object_)
         whole = np.concatenate([rows, unit], axis=1)
         for n in range(COUNT):
@@ -536,7 +536,7 @@ def _inverse_powers() -> tuple[list[int], Whole]:
                 if k != n:
                     whole[k] = whole[k] - whole[n] * whole[k, n]
         inverse = [[_whole(entry) for entry in row] for row in whole[:, COUNT:]]
-        return [_whole(place) for place in places], np.array(inverse, np.object_)
+        return [_whole(node) for node in places], np.array(inverse, np.object_)
 
 
 def _whole(number: Decimal) -> int:

@@ -675,11 +675,11 @@ def _certified(
     """
     rows = len(system.terms)
     sized = np.hypot(inverse[:, :rows], inverse[:, rows : 2 * rows])
-    left = np.abs(inverse[:, :-1] @ system.residual(y[None])[0])
+    error = np.abs(inverse[:, :-1] @ system.residual(y[None])[0])
     second = -inverse[:, :-1] @ (system.bend(y, tangent) @ tangent)
     bent, size = np.abs(second) / 2, np.abs(tangent)
     while step > NO_STEP:
-        first = left + bent * step * step + sized @ system.third(y, size, step) * (step**3 / 6)
+        first = error + bent * step * step + sized @ system.third(y, size, step) * (step**3 / 6)
         box = 1.5 * first + SOLVED
         for _ in range(_TRIES):
             needed = first + sized @ (system.change(y, size * step + box) @ box)

@@ -135,8 +135,8 @@ def _reach(form: HalfForm) -> float:
 def _half_turns(angle: Sum) -> tuple[int, Sum]:
     """Return the whole number of half turns nearest an angle, and what is left of it."""
     count = round(float(angle) / math.pi)
-    left = angle - quarter_turns(2 * count)
-    return count, left if abs(left.high) > TWO_FLOATS else Sum(0.0)
+    remainder = angle - quarter_turns(2 * count)
+    return count, remainder if abs(remainder.high) > TWO_FLOATS else Sum(0.0)
 
 
 def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
@@ -327,11 +327,11 @@ class InputPath(ABC):
         return replace(self, rounds=2 * self.rounds)
 
     @abstractmethod
-    def holds(self, place: float, turns: int = 1) -> bool:
+    def holds(self, coordinate: float, turns: int = 1) -> bool:
         """Tell whether the input comes to a place; for an angle, whole multiples of `turns` turns aside."""
 
     @abstractmethod
-    def phase_of(self, place: float, near: float) -> float:
+    def phase_of(self, coordinate: float, near: float) -> float:
         """Return the phase nearest to `near` at which the input stands at a place, or at its end."""
 
     @abstractmethod
@@ -403,16 +403,18 @@ class InputPath(ABC):
         """Return the arguments of the program by angle: the angle, and what else gives the state."""
         return (distances.angle,)
 
-    def same(self, place: float, other: float) -> bool:
+    def same(self, coordinate: float, other: float) -> bool:
         """Tell whether two places of the input are one."""
-        return abs(math.remainder(place - other, 2 * math.pi)) <= SAME_PLACE
+        return abs(math.remainder(coordinate - other, 2 * math.pi)) <= SAME_PLACE
 
     def distinct(self, places: Iterable[float]) -> tuple[float, ...]:
         """Return places of the input, angles within one turn, each once, the least first."""
         inputs: list[float] = []
-        for place in sorted(math.remainder(place, 2 * math.pi) % (2 * math.pi) for place in places):
-            if not any(self.same(place, other) for other in inputs):
-                inputs.append(place)
+        for coordinate in sorted(
+            math.remainder(coordinate, 2 * math.pi) % (2 * math.pi) for coordinate in places
+        ):
+            if not any(self.same(coordinate, other) for other in inputs):
+                inputs.append(coordinate)
         return tuple(inputs)
 
 
@@ -517,13 +519,13 @@ class Turn(InputPath):
         """How far the input goes: one turn from 0."""
         return 0.0, 2 * math.pi
 
-    def holds(self, place: float, turns: int = 1) -> bool:
+    def holds(self, coordinate: float, turns: int = 1) -> bool:
         """Tell whether the input comes to an angle: to every one."""
         return True
 
-    def phase_of(self, place: float, near: float) -> float:
+    def phase_of(self, coordinate: float, near: float) -> float:
         """Return the phase nearest to `near` at which the input stands at an angle, whole turns aside."""
-        return near + math.remainder(place - self.start - near, 2 * math.pi)
+        return near + math.remainder(coordinate - self.start - near, 2 * math.pi)
 
     def coordinates(self, phases: Array) -> Array:
         """Return the input's angle at phases."""
@@ -616,13 +618,13 @@ class Swing(ThereAndBack):
         low, high = (float(end) for end in (self.low, self.high))
         return low if abs(low) > STATED * math.pi else 0.0, high if abs(high) > STATED * math.pi else 0.0
 
-    def holds(self, place: float, turns: int = 1) -> bool:
+    def holds(self, coordinate: float, turns: int = 1) -> bool:
         """Tell whether the input comes to an angle, whole multiples of `turns` turns aside."""
-        return abs(math.remainder(place - float(self.middle), 2 * math.pi * turns)) <= self.amplitude
+        return abs(math.remainder(coordinate - float(self.middle), 2 * math.pi * turns)) <= self.amplitude
 
-    def phase_of(self, place: float, near: float) -> float:
+    def phase_of(self, coordinate: float, near: float) -> float:
         """Return the phase nearest to `near` at which the input stands at an angle, or at its limit."""
-        away = math.remainder(place - float(self.middle), 2 * math.pi)
+        away = math.remainder(coordinate - float(self.middle), 2 * math.pi)
         rising = math.acos(min(max(-away / self.amplitude, -1.0), 1.0))
         return nearer_way(rising, near)
 

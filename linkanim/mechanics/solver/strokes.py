@@ -168,18 +168,18 @@ class CylinderStroke(Stroke):
         sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
         return float(self.base) + self.side * 2 * math.atan2(math.sqrt(sine), math.sqrt(cosine))
 
-    def holds(self, place: float, turns: int = 1) -> bool:
+    def holds(self, coordinate: float, turns: int = 1) -> bool:
         """Tell whether the crank comes to an angle, whole multiples of `turns` turns aside."""
-        return self.swing.holds(place, turns)
+        return self.swing.holds(coordinate, turns)
 
     def around(self, angle: float) -> CylinderStroke:
         """Return the path with its range, by whole turns, around an angle, or nearest to it."""
         return replace(self, base=self.base + FULL_TURN.times(float(self.swing.turns_to(angle))))
 
-    def phase_of(self, place: float, near: float) -> float:
+    def phase_of(self, coordinate: float, near: float) -> float:
         """Return the phase nearest to `near` at which the crank stands at an angle, or at its end."""
         g, r = self.sides
-        psi = abs(math.remainder(place - float(self.base), 2 * math.pi))
+        psi = abs(math.remainder(coordinate - float(self.base), 2 * math.pi))
         length = math.sqrt(g * g + r * r - 2 * g * r * math.cos(psi))
         return nearer_way(self.forth(length), near)
 
@@ -333,14 +333,14 @@ class SliderStroke(Stroke):
         """Both ends: where a dyad is at its limit, the motion runs on to the other closure."""
         return self.input_range
 
-    def holds(self, place: float, turns: int = 1) -> bool:
+    def holds(self, coordinate: float, turns: int = 1) -> bool:
         """Tell whether the slider comes so far."""
         low, high = self.input_range
-        return low <= place <= high
+        return low <= coordinate <= high
 
-    def phase_of(self, place: float, near: float) -> float:
+    def phase_of(self, coordinate: float, near: float) -> float:
         """Return the phase nearest to `near` at which the slider has travelled so far, or is at its end."""
-        return nearer_way(self.forth(place / self.unscale), near)
+        return nearer_way(self.forth(coordinate / self.unscale), near)
 
     def coordinates(self, phases: Array) -> Array:
         """Return the slider's travel at phases."""
@@ -367,10 +367,10 @@ class SliderStroke(Stroke):
         """Raise BadInput: a slider has no angle."""
         raise BadInput(NO_ANGLE)
 
-    def same(self, place: float, other: float) -> bool:
+    def same(self, coordinate: float, other: float) -> bool:
         """Tell whether two places of the slider are one."""
         low, high = self.input_range
-        return abs(place - other) <= SAME_PLACE * (high - low)
+        return abs(coordinate - other) <= SAME_PLACE * (high - low)
 
     def distinct(self, places: Iterable[float]) -> tuple[float, ...]:
         """Return places of the slider, each once, the least first."""
