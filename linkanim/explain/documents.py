@@ -505,6 +505,30 @@ _FURTHER = r"""% run xelatex or lualatex: the standard fonts lack some of the le
 _CHINESE = r"""% run xelatex or lualatex: the standard fonts lack some of the letters
 \usepackage[UTF8,scheme=plain]{ctex}
 """
+_TRADITIONAL = (
+    r"""% run xelatex or lualatex: the standard fonts lack some of the letters
+\usepackage[UTF8,scheme=plain,fontset=none]{ctex}
+% the first of these fonts that is there
+\newcommand\face[2]{\IfFontExistsTF{#1}{\setCJKmainfont{#1}\setCJKsansfont{#1}}{#2}}
+"""
+    + "".join(
+        rf"\face{{{name}}}{{"
+        for name in (
+            "Noto Serif CJK TC",
+            "Source Han Serif TC",
+            "Noto Sans CJK TC",
+            "Songti TC",
+            "PMingLiU",
+            "AR PL UMing TW",
+            "AR PL KaitiM Big5",
+            "Droid Sans Fallback",
+        )
+    )
+    + r"\setCJKmainfont{FandolSong-Regular.otf}"
+    + "}" * 8
+    + "\n"
+)
+"""For the letters of Traditional Chinese, which the usual fonts of `ctex` lack."""
 _BEFORE = "\n\n\\begin{align*}"
 
 
@@ -533,9 +557,19 @@ def _latex_aligned(aligned: list[EquationRow]) -> str:
 def _latex_page(_: str, body: str) -> str:
     further = [char for char in body if not latex_has(char)]
     wide = any(east_asian_width(char) in ("W", "F") for char in further)
-    fonts = _CHINESE if wide else _FURTHER if further else _STANDARD
+    chinese = _TRADITIONAL if any(map(_is_traditional, further)) else _CHINESE
+    fonts = chinese if wide else _FURTHER if further else _STANDARD
     # a paragraph that ends before an equation would leave an empty line
     return f"{_PREAMBLE % fonts}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
+
+
+def _is_traditional(char: str) -> bool:
+    """Return whether a letter is a Chinese one that the set of Simplified Chinese lacks."""
+    try:
+        char.encode("gb2312")
+    except UnicodeEncodeError:
+        return "\u4e00" <= char <= "\u9fff"
+    return False
 
 
 def _latex_question(one: QuestionParts) -> str:

@@ -189,8 +189,12 @@ def _growing(
     return puzzle.question(
         subject,
         sentences(said("The input runs twice as fast."), text),
-        QuizAnswer(said(_FACTORS[factor])),
-        [QuizAnswer(said(words), said(_GOES_WITH[one])) for one, words in _FACTORS.items() if one != factor],
+        QuizAnswer(said(_FACTORS[factor]), alphabet=_FACTORS[factor]),
+        [
+            QuizAnswer(said(words), said(_GOES_WITH[one]), alphabet=words)
+            for one, words in _FACTORS.items()
+            if one != factor
+        ],
         why,
         shuffled=True,
         shows=shows,
@@ -232,6 +236,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
             if n != which
             else "",
             curve=tuple(round(float(value), 3) for value in part),
+            alphabet=f"curve {order.index(n) + 1}",
         )
         for n, part in enumerate(scaled)
     ]
@@ -835,15 +840,15 @@ def input_range(puzzle: Puzzle) -> QuizQuestion | None:
     if not puzzle.scene.linkage.drive.coordinate.is_angle:
         return None
     own = None if info.full_turn else (degrees(info.input_range[0]), degrees(info.input_range[1]))
-    wrong = [] if own is None else [QuizAnswer(said(_FULL), _overlooked(puzzle))]
+    wrong = [] if own is None else [QuizAnswer(said(_FULL), _overlooked(puzzle), alphabet=_FULL)]
     swings = [] if own is None else [own]
     for slip, other in _taken_for_range(puzzle, own):
         if len(wrong) == MOST - 1:
             break
         if all(_are_apart(one, other) for one in swings):
             swings.append(other)
-            wrong.append(QuizAnswer(swing(*other), slip))
-    right = QuizAnswer(said(_FULL) if own is None else swing(*own))
+            wrong.append(swing(*other, slip))
+    right = QuizAnswer(said(_FULL), alphabet=_FULL) if own is None else swing(*own)
     text = said("How far can the {link} turn?", link=info.input_said)
     why = _why_fully(puzzle) if own is None else _why_swinging(puzzle)
     return puzzle.question("input", text, right, wrong, why, shuffled=True)

@@ -263,9 +263,10 @@ def angle(value: float) -> str:
     return f"{round(value, 1) % 360:.1f}°"
 
 
-def swing(low: float, high: float) -> str:
-    """Return the range of a swing in words, from two angles in degrees."""
-    return said("it swings between {low} and {high}", low=tenths(low), high=tenths(high))
+def swing(low: float, high: float, slip: str = "") -> QuizAnswer:
+    """Return the range of a swing as an answer, from two angles in degrees."""
+    words, ends = to_say("it swings between {low} and {high}"), {"low": tenths(low), "high": tenths(high)}
+    return QuizAnswer(said(words, **ends), slip, alphabet=words.format(**ends))
 
 
 def tenths(value: float) -> str:

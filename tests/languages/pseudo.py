@@ -1,0 +1,60 @@
+"""A language made up for tests: each letter of a sentence is another, so what is not said stays plain."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from gettext import NullTranslations
+from html import unescape
+
+import pytest
+
+from linkanim import words
+from linkanim.words import speaking
+
+NAME = "qps"
+_LETTERS = str.maketrans(
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ",
+    "áƀćđéƒǵĥíĵķĺḿńóṕqŕśťúṽẃẋýźÁɃĆĐÉƑǴĤÍĴĶĹḾŃÓṔQŔŚŤÚṼẂẊÝŹ",
+)
+_PART = re.compile(r"(\{[^}]*\})")
+_PLAIN = re.compile(r"[A-Za-z]{3,}")
+_UNSEEN = re.compile(r"<(style|script|math|svg)\b.*?</\1>|<[^>]*>", re.DOTALL)
+
+
+def longer(message: str) -> str:
+    """Return a message in other letters, two fifths longer, with its places where they were."""
+    parts = _PART.split(message)
+    written = "".join(one if n % 2 else one.translate(_LETTERS) for n, one in enumerate(parts))
+    return written + "ẃ" * (2 * len(message) // 5) if len(message) > 3 else written
+
+
+class _Pseudo(NullTranslations):
+    def gettext(self, message: str) -> str:
+        return longer(message)
+
+    def pgettext(self, context: str, message: str) -> str:
+        return longer(message)
+
+    def ngettext(self, one: str, many: str, n: int) -> str:
+        return longer(one if n == 1 else many)
+
+
+@contextmanager
+def spoken_pseudo(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Speak the language while the block runs."""
+    with monkeypatch.context() as patch:
+        patch.setattr(words, "_catalogue", lambda _: _Pseudo())
+        with speaking(NAME):
+            yield
+
+
+def plain_words(text: str, known: frozenset[str] = frozenset()) -> set[str]:
+    """Return the words of a text that no catalogue gave; `known` are such as need none: units, names."""
+    return set(_PLAIN.findall(text)) - known
+
+
+def visible(page: str) -> str:
+    """Return the words of a page of HTML: without its styles, scripts, formulas and figures."""
+    return unescape(_UNSEEN.sub(" ", page))

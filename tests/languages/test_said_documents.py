@@ -1,0 +1,142 @@
+"""Worked solutions, exercises, quizzes and pages that move, in every language: no word stays behind."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from pseudo import plain_words, spoken_pseudo, visible
+
+from linkanim import load
+from linkanim.cli import main
+from linkanim.explain.documents import HTML, document
+from linkanim.explain.exercise import Level, exercise
+from linkanim.explain.solution import PoseRequest, solution
+from linkanim.play.quiz import as_html, as_text, questions
+from linkanim.share.page import Shared, packaged, script_words
+from linkanim.share.page import document as page
+from linkanim.words import speaking
+
+_KNOWN = frozenset({"cos", "sin", "tan", "rad", "rpm", "linkanim"})
+SOLVED = {
+    "crank-rocker": "bars in line, half angles, a swing",
+    "press": "a slider, springs and masses, and a force in each joint",
+    "crank-shaper": "a slot, and dead centres by search",
+    "elliptic-trammel": "two sliders on one rod",
+    "oscillating-cylinder": "a cylinder",
+    "landing-gear": "an input that swings, with its limits",
+    "double-butterfly": "links that are solved together",
+    "geared-five-bar-2-1": "gears",
+    "oldham": "a slot on a link that moves",
+}
+"""Scenes that need sentences of each kind, and which."""
+
+
+def _solved(name: str, *, forces: bool = False) -> str:
+    scene = load(name)
+    request = PoseRequest(scene, "phase", 0.7, scene.linkage.drive.speed, forces=forces)
+    return document(solution(request), HTML)
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_no_word_of_a_solution_stays_behind(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    with spoken_pseudo(monkeypatch):
+        text = visible(_solved(name, forces=name == "press"))
+    assert plain_words(text, _KNOWN) == set()
+
+
+@pytest.mark.parametrize("level", ["drawing", "hints", "formulas"])
+def test_no_word_of_an_exercise_stays_behind(level: Level, monkeypatch: pytest.MonkeyPatch) -> None:
+    with spoken_pseudo(monkeypatch):
+        found = [
+            solution(PoseRequest(load(name), "phase", 0.7, 1.0, forces=name == "press"))
+            for name in ("crank-rocker", "press")
+        ]
+        text = visible(exercise(found, HTML, level))
+    assert plain_words(text, _KNOWN) == set()
+
+
+def test_no_word_of_a_quiz_stays_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("crank-rocker", "press", "whitworth", "jansen", "double-rocker", "landing-gear")
+    with spoken_pseudo(monkeypatch):
+        asked = questions([load(name) for name in names], 36, 1)
+        text = as_text(asked) + visible(as_html(asked[:3], asked[0].scene.title))
+    titles = set(re.findall(r"[A-Za-z]{3,}", asked[0].scene.title))
+    assert plain_words(text, _KNOWN | titles) == set()
+
+
+def test_a_quiz_is_the_same_in_every_language() -> None:
+    scenes = [load(name) for name in ("crank-rocker", "press", "whitworth")]
+    rounds = {}
+    for language in ("en", "zh_TW", "zh_CN"):
+        with speaking(language):
+            rounds[language] = [
+                (one.question_id, one.right, len(one.answers)) for one in questions(scenes, 24, 5)
+            ]
+    assert rounds["zh_TW"] == rounds["en"] == rounds["zh_CN"]
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "geared-five-bar-2-1"])
+def test_no_word_of_a_page_that_moves_stays_behind(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    with spoken_pseudo(monkeypatch):
+        text = page(Shared(load(name), names=1))
+    shown = visible(text)
+    assert plain_words(shown, _KNOWN) == set()
+    data = json.loads(re.findall(r'id="data">(.*?)</script>', text)[0])
+    script = "\n".join(map(packaged, ("lengths.js", "page.js")))
+    assert data["said"].keys() == set(script_words(script))
+    labels = [row["label"] for side in data["sides"] for row in side["rows"]]
+    labels += [slider["label"] for slider in data["model"]["sliders"]] if "model" in data else []
+    assert plain_words(" ".join(labels), _KNOWN) == set()
+
+
+LANGUAGES = {"en": "en", "zh_TW": "zh-Hant", "zh_CN": "zh-Hans"}
+
+
+@pytest.mark.parametrize(("language", "tag"), LANGUAGES.items())
+def test_a_page_says_which_language_it_is_in(
+    language: str, tag: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    commands = (["explain", "crank-rocker"], ["quiz", "crank-rocker", "-n", "2"], ["share", "crank-rocker"])
+    for command in commands:
+        assert main([*command, "-o", f"{command[0]}.html", "--lang", language]) == 0
+        text = (tmp_path / f"{command[0]}.html").read_text("utf-8")
+        assert re.search(r"<html lang=['\"](.*?)['\"]", text)[1] == tag  # type: ignore[index]
+
+
+TEX = {
+    "zh_TW": "fontset=none",  # Fandol, which ctex takes, has no traditional letters
+    "zh_CN": "[UTF8,scheme=plain]",
+}
+
+
+@pytest.mark.parametrize(("language", "fonts"), TEX.items())
+def test_latex_names_fonts_that_have_its_letters(language: str, fonts: str, tmp_path: Path) -> None:
+    target = tmp_path / "solution.tex"
+    assert main(["explain", "crank-rocker", "-o", str(target), "--lang", language]) == 0
+    assert fonts in target.read_text("utf-8").partition("\n\\begin{document}")[0]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("xelatex") is None, reason="needs xelatex, and fonts with its letters")
+@pytest.mark.parametrize("language", TEX)
+def test_no_letter_of_a_compiled_solution_is_missing(language: str, tmp_path: Path) -> None:
+    target = tmp_path / "solution.tex"
+    assert main(["explain", "crank-rocker", "-o", str(target), "--lang", language]) == 0
+    command = ["xelatex", "-interaction=nonstopmode", "-halt-on-error", target.name]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    assert "Missing character" not in (tmp_path / "solution.log").read_text("utf-8", "replace")
+
+
+def test_a_language_that_is_not_there_is_refused_with_those_that_are(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["explain", "crank-rocker", "--lang", "klingon"]) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert all(word in told for word in ("klingon", "en", "zh_TW", "zh_CN"))
