@@ -46,7 +46,7 @@ from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Rect, View
 from linkanim.scenes.editing import ghost_of
 from linkanim.scenes.scene import Scene
-from linkanim.words import kept_as_said
+from linkanim.words import cached_as_said, kept_as_said, said
 
 _KEEPS = 0.75
 """The share of its size without words that the linkage keeps: for more words there is no room."""
@@ -142,7 +142,7 @@ class Subject:
         """The scene, and the one beside it."""
         return (self.figure.scene, self.beside) if self.beside else (self.figure.scene,)
 
-    @cached_property
+    @cached_as_said
     def rows(self) -> tuple[WidestRow, ...]:
         """The rows of their readout, at their widest."""
         return widest_rows(self.scenes, letters())
@@ -261,7 +261,7 @@ class _Composer:
         parts = layout(asked.size, docked=asked.docked, type_scale=asked.type_scale)
         if not asked.caption or parts.caption:
             return parts
-        lines = caption_lines(parts, self.subject.figure.scene.look_at, self.type)
+        lines = caption_lines(parts, said(self.subject.figure.scene.look_at), self.type)
         return with_caption(parts, len(lines))
 
     @cached_property

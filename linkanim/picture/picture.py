@@ -342,7 +342,7 @@ class Picture:
     def _caption(self, place: Rect) -> Iterator[Caption]:
         """Yield the sentence on what to watch for, in its slot."""
         size, middle = self.layout.small_size, place.x + place.width / 2
-        lines = caption_lines(self.layout, self.scene.look_at, self.type)
+        lines = caption_lines(self.layout, said(self.scene.look_at), self.type)
         top = place.y + (place.height - CAPTION_STEP * size * len(lines)) / 2
         for n, line in enumerate(lines):
             yield Caption(line, (middle, top + CAPTION_STEP * size * n), size, self.theme.dim, "centre")

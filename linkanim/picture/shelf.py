@@ -431,7 +431,7 @@ def _foot(surface: pygame.Surface, board: Board, cells: Grid, shelf: Shelf, live
         return
     text, room = cells.text, cells.room
     for size in range(text, _LEAST - 1, -1):
-        lines = board.type.wrapped(live.picture.scene.look_at, size, room.width)
+        lines = board.type.wrapped(said(live.picture.scene.look_at), size, room.width)
         if len(lines) <= _LINES:
             break
     for n, line in enumerate(lines[:_LINES]):

@@ -49,7 +49,7 @@ from linkanim.player.state import (
 from linkanim.scenes.editing import other_closure
 from linkanim.scenes.scene import Scene
 from linkanim.units import LENGTH_UNITS
-from linkanim.words import name_said, said, sentences, to_say
+from linkanim.words import LANGUAGES, name_said, said, sentences, to_say
 
 # Actions on the look: what is shown beside the linkage, in which theme, and how near.
 
@@ -324,6 +324,7 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     resumed = replace(resumed, from_title=state.from_title, kiosk=state.kiosk, take=state.take)
+    resumed = replace(resumed, language=state.language)
     resumed = replace(
         resumed, last_mouse_move=state.last_mouse_move
     )  # what was clicked in the game has brought the bar
@@ -380,6 +381,15 @@ def _chart(before: State, after: State) -> str | None:
 def _zoom(_: State, after: State) -> str:
     """Say how large the picture is."""
     return f"{after.look.zoom:.0%}".replace("%", " %")
+
+
+def _speak(state: State, language: str) -> State:
+    """Say all words in another language; what was said in the one before goes."""
+    bare = replace(state.unlisted, language=language, toast=None, chip=None, departures=())
+    if not state.sheet:
+        return bare
+    building = replace(state.sheet.building, sentence="", is_refusal=False)  # what it lacks is said anew
+    return replace(bare, sheet=replace(state.sheet, building=building))
 
 
 def _unused(state: State, _: object) -> State:
@@ -456,6 +466,7 @@ ACTIONS: Mapping[str, Rule] = {
     "returns": Rule(rules.nothing, edits.returns, answer=_returns),
     "redo": Rule(rules.nothing, edits.redo, answer=rules.stuck(to_say("nothing to redo"))),
     "dial_on": Rule(rules.whole, making.along),  # so many steps further
+    "language": Rule(rules.one_of(*LANGUAGES), _speak),  # of all words
     "play": Rule(rules.text, play),  # a game's words
     # what games have in common; each says what they do in it
     "option": Rule(rules.whole, _unused),  # the place of an answer, from 0

@@ -30,7 +30,7 @@ from linkanim.player.keys import (
 from linkanim.player.state import BLANK, MOUSE_FRAMES, Game, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
-from linkanim.words import name_said, said, to_say
+from linkanim.words import LANGUAGES, name_said, said, spoken, to_say
 
 _FADING = 24
 """The frames over which the bar fades out."""
@@ -231,7 +231,7 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
             *(row for row in listed if row.action.name in BESIDE_GAMES),
         ]
     if group is None:
-        return Entries(to_say("Commands"), tuple(listed))
+        return Entries(to_say("Commands"), (*listed, *_languages(state)))
     title, members = GROUPS[group]
     rows = (row for row in listed if row.action in members)
     named = _constructions(state) if group == "construction" else ()
@@ -267,6 +267,14 @@ def _constructions(state: State) -> Iterator[ListRow]:
 
         for number, kind in enumerate(kinds_of(state.scene)):
             yield ListRow(said(NAMES[kind]), "" if number else "F7", Action("construction", kind))
+
+
+def _languages(state: State) -> Iterator[ListRow]:
+    """Yield the languages in which words are not now, each by its own name; a game that runs has its own."""
+    runs = state.game is not None and state.game.words.partition(" ")[0] not in ("title", "menu")
+    for language, name in LANGUAGES.items():
+        if language != spoken() and not runs:
+            yield ListRow(name, "", Action("language", language), (name, language, "language"))
 
 
 _CHOSEN: Mapping[str, tuple[Action, ...]] = {

@@ -27,6 +27,7 @@ class Framed(NamedTuple):
     placed: Scene | None
     sheet: Box | None
     also: tuple[complex, ...]
+    language: str | None = None
 
     @property
     def of_view(self) -> tuple[object, ...]:
@@ -51,6 +52,7 @@ def framed(state: State, *, window: bool = True) -> Framed:
         _before_change(state),
         sheet.home if sheet else state.home,
         _included(state, kept),
+        state.language,
     )
 
 

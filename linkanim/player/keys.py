@@ -394,7 +394,7 @@ def _names(press: Press) -> tuple[str, ...]:
 BESIDE_GAMES = frozenset(
     {
         *("play", "help", "find", "theme", "material", "zoom", "fit", "fullscreen"),
-        *("pan", "record", "taking", "screenshot", "svg", "quit"),
+        *("language", "pan", "record", "taking", "screenshot", "svg", "quit"),
     }
 )
 """The commands that are the window's own while a game is on; all others are handed to the game."""

@@ -48,7 +48,7 @@ from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_u
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import degrees
-from linkanim.words import said, to_say
+from linkanim.words import said, spoken, to_say
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -867,7 +867,7 @@ class State:
     `held` is the joint whose lengths are being dragged, `grasp` the joint that drags the input. `home` is the
     part of the plane that a game keeps visible, if not the fitted scene, `also` are places that it keeps in
     sight beside that. With `reduced_motion` the picture changes at once, without fades, glides and moving
-    views.
+    views. Words are in its `language`, or in that which is spoken where it is None.
 
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
@@ -912,6 +912,7 @@ class State:
     kiosk: bool = False
     by_itself: bool = False
     reduced_motion: bool = False
+    language: str | None = None
     home: Box | None = None
     also: tuple[complex, ...] = ()
     lesson: tuple[int, int] | None = None
@@ -923,6 +924,11 @@ class State:
     def shown(self) -> Scene:
         """The scene to draw: `scene`, or one on the way to it while a length is changing."""
         return self.glide.scene if isinstance(self.glide, Glide) else self.scene
+
+    @property
+    def speaks(self) -> str:
+        """The language of its words."""
+        return self.language or spoken()
 
     @property
     def displayed(self) -> Scene:

@@ -29,6 +29,7 @@ from linkanim.recorder.recording import (
 )
 from linkanim.ui.pictures import Framing
 from linkanim.ui.shown import recorded
+from linkanim.words import speaking
 
 if TYPE_CHECKING:
     from linkanim.player.state import State
@@ -59,6 +60,10 @@ class TapeFrames:
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, which the next call overwrites."""
         state, phase = self._at(frame)
+        with speaking(state.speaks):
+            return self._drawn(state, phase)
+
+    def _drawn(self, state: State, phase: float) -> Frame:
         picture, over = self._framing.at(state, self.size), recorded(state, photo=self._photo)
         if over.photo:
             refuse_lacking(over.photo.file)

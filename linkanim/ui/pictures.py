@@ -30,7 +30,7 @@ class Framing:
         fit = framed(state, window=self._window)
         known = next((one for one in self._made if one[0] == (fit, size)), None)
         if known is None:
-            scene, look, docked, placed, sheet, also = fit
+            scene, look, docked, placed, sheet, also, _ = fit
             picture = Picture(scene, size, look, placed=placed, docked=docked, sheet=sheet, also=also)
             known = (fit, size), picture
         others = [one for one in self._made if one is not known]
@@ -51,7 +51,7 @@ class Framing:
         aside = sum(right for right, _ in ways), sum(down for _, down in ways)
         if view == goal.view and aside == (0.0, 0.0):
             return goal
-        scene, look, docked, placed, sheet, also = framed(state, window=self._window)
+        scene, look, docked, placed, sheet, also, _ = framed(state, window=self._window)
         return Picture(
             scene, size, look, view=view, aside=aside, placed=placed, docked=docked, sheet=sheet, also=also
         )

@@ -44,7 +44,7 @@ from linkanim.ui.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mou
 from linkanim.ui.pointing import Pointed, PointedThing
 from linkanim.ui.screen import Screen
 from linkanim.ui.shown import lasting, overlay
-from linkanim.words import said, to_say
+from linkanim.words import said, speaking, to_say
 
 if TYPE_CHECKING:
     from linkanim.player.background import Following, Making, Queue
@@ -143,9 +143,13 @@ class Window:
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
         self._now = self.state.frame + frames
-        for frame in range(frames):
-            self._advance(events if frame == 0 else [])
-        self._show()
+        with speaking(self.state.speaks):
+            for frame in range(frames):
+                self._advance(events if frame == 0 else [])
+        with speaking(self.state.speaks):
+            if self._good and self._good.speaks != self.state.speaks:
+                self.screen = Screen(self.state)  # whatever it keeps is in the language before
+            self._show()
         return self._open
 
     def fill(self) -> None:
