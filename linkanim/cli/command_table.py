@@ -256,7 +256,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim quiz crank-rocker",
         "linkanim quiz press -n 10 --seed 7 -o sheet.html",
         "linkanim quiz four-bars --json",
-        "linkanim quiz all -n 62 --moodle questions.xml --qti questions.zip",
+        "linkanim quiz all -n 64 --moodle questions.xml --qti questions.zip",
     ),
     "share": (
         "write one page that moves in any browser, without a network",

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cached_property, partial
 from operator import itemgetter
 
@@ -23,7 +23,7 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.balance import surplus
 from linkanim.mechanics.forces import Demand, demand, usual_effort
-from linkanim.mechanics.groups import LinkGroup, group_of
+from linkanim.mechanics.groups import GroupPoint, LinkGroup, group_of
 from linkanim.mechanics.linkage import RRR, Body, Joint, Linkage, Rigid, holding
 from linkanim.mechanics.measures import (
     as_output,
@@ -71,11 +71,15 @@ def solving_steps(linkage: Linkage) -> Mapping[str, int]:
     """Return each joint's step: 0 on the ground, 1 the input's, then one more than what it is found from.
 
     A point of a body comes with the last of the joints that its body is known by; dyads that need nothing
-    of each other share a step.
+    of each other share a step, and so do all points of links that are solved together.
     """
     steps: dict[str, int] = {}
     for joint in linkage.joints:
-        before = max((steps[name] for name in joint.needs), default=0)
+        needs: Iterable[str] = joint.needs
+        if isinstance(joint, GroupPoint):
+            members = (name for member in joint.group.members for name in member.points)
+            needs = (name for name in members if name not in joint.group.points)
+        before = max((steps[name] for name in needs), default=0)
         with_body = joint.fixed or isinstance(joint, Rigid)
         steps[joint.name] = before if with_body else before + 1
     return steps

@@ -165,7 +165,8 @@ def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
         if item.forceful:
             words = said("spring force") if word == "spring" else said("damper force")
             yield MeasuredRow(2, words, known[f"{item.name}.force"], 0.1)
-    if linkage.drive.actuator.along is not None:
+    # where its length is the input, the row of the input says it
+    if linkage.drive.actuator.along is not None and linkage.drive.coordinate.is_angle:
         yield MeasuredRow(2, said("driving cylinder"), known["input.length"], scene.length_step)
 
 

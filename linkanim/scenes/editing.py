@@ -162,6 +162,8 @@ def beyond_title(title: str, class_name: str) -> str:
         return class_name
     begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
     rest = f"{class_name[:begin].rstrip()} {class_name[end:].lstrip(' ,:')}".strip()
+    if rest == "linkage":
+        return ""
     if rest.partition(" ")[0] in _BOUND:
         return class_name
     return rest[1:-1] if rest.startswith("(") and rest.endswith(")") else rest
@@ -650,12 +652,15 @@ def _driven_along(slide: Slide, at: Mapping[str, complex]) -> complex:
 def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:
     """Return the phase near `phase` at which the input crank points at `point` (scene's unit).
 
-    A slider that drives comes as near to the point as its guide allows, which may move, as it lies now.
+    A slider that drives comes as near to the point as its guide allows, which may move, as it lies now; the end
+    of a cylinder that stands on a moving link comes as near as it ever does.
 
     An input that swings stops at its limits. Of the two phases of an angle the nearer one is returned; past a
     limit, the one on the other way. A point on the pivot itself changes nothing.
     """
     mechanism, (driven, pivot, _, base) = scene.mechanism, scene.linkage.driven
+    if driven.driven_between:
+        return scene.point_path(driven.name).nearest(point, phase)
     at = {name: complex(*place) for name, place in scene.pose(phase, 0).position.items()}
     if slide := driven.driven_slide:
         way = (complex(*point) - at[slide.line.through]) * _driven_along(slide, at).conjugate()

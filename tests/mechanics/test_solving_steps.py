@@ -13,6 +13,10 @@ KNOWN = {
     "crank-rocker": {"O2": 0, "O4": 0, "A": 1, "B": 2, "P": 2},
     # the drive is the slider, the crank what comes last
     "driven-piston": {"C": 1},
+    # what is solved together comes in one step: after the crank, or first where its own length drives
+    "stephenson-2": {"A": 1, "B": 2, "C": 2, "D": 2, "E": 2},
+    "double-butterfly": {"C": 1, "D": 1, "E": 2, "I": 2, "J": 2},
+    "knee-cylinder": {"O": 0, "K": 1, "P": 1, "B": 1, "Q": 1},
 }
 
 

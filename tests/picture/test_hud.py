@@ -268,6 +268,8 @@ def test_a_note_stands_long_enough_to_be_read(name: str, speed: float, seen: boo
         ("Kite", "kite (change point)", "change point"),
         ("Drag link", "Grashof drag-link (double crank)", "Grashof (double crank)"),
         ("Six-bar: two in series", "six-bar: crank-rocker, then kite", "crank-rocker, then kite"),
+        # "linkage" alone says nothing
+        ("Stephenson's six-bar, second kind", "six-bar linkage", ""),
         # nothing, or half a word
         ("My machine", "Grashof crank-rocker", "Grashof crank-rocker"),
         ("A rocker of mine", "Grashof crank-rocker", "Grashof crank-rocker"),

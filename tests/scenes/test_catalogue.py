@@ -20,6 +20,7 @@ STEPS = 720
 UPRIGHT = (
     "press", "engine", "toggle-press", "hoecken", "roberts-line", "evans", "quick-return-press", "watt-1",
     "stephenson-3", "scissor-lift", "landing-gear", "excavator", "andrews",
+    "knee-cylinder",
 )  # fmt: skip
 
 

@@ -104,6 +104,25 @@ def test_the_double_butterflys_pin_goes_where_it_is_published() -> None:
     assert places["J"] == pytest.approx((3.277974954071667, 0.017062641156144212), rel=1e-14)
 
 
+# turned to the right by the rack at one end, to the left at the other; straight in the drawn pose
+@pytest.mark.parametrize(("travel", "inner", "outer"), [(40, "right", "left"), (140, "left", "right")])
+def test_in_a_bend_the_inner_wheel_turns_further(travel: float, inner: str, outer: str) -> None:
+    scene = load("steering")
+    straight, bent = (scene.solve(travel=at).angle for at in (90, travel))
+    turned = {wheel: abs(float(bent[wheel] - straight[wheel])) for wheel in (inner, outer)}
+    assert turned[inner] - turned[outer] > math.radians(1.5)
+    assert math.degrees(turned[outer]) > 15
+
+
+def test_the_steering_s_drag_link_is_held_at_three_places() -> None:
+    linkage = load("steering").linkage
+    links = {body.name: {*body.joints} for body in linkage.bodies}
+    holding = [name for name, joints in links.items() if name != "drag" and joints & links["drag"]]
+    assert sorted(holding) == ["left", "right", "rod"]
+    assert linkage.joint("L").fixed
+    assert linkage.joint("R").fixed
+
+
 def test_the_plotters_curve_is_closed_after_two_turns_of_the_quicker_motor() -> None:
     scene = load("plotter")
     assert scene.mechanism.periods == 2

@@ -94,6 +94,20 @@ def test_the_toggle_press_s_ram_stops_where_its_knee_is_straight() -> None:
     assert presses[-1] > 100 * presses[0]
 
 
+def test_the_cylinder_between_the_knee_s_links_spreads_them_as_the_cosine_says() -> None:
+    motion = load("knee-cylinder").cycle(720)
+    at = {joint: motion.position[joint] @ [1, 1j] for joint in "OKBPQ"}
+    cylinder = np.abs(at["Q"] - at["P"])
+    assert (np.min(cylinder), np.max(cylinder)) == pytest.approx((150, 320), rel=1e-12)
+    # Both links are alike, so the knee is half as high as the ram; K, P, Q and K, O, B are two triangles.
+    arm, bar = abs(complex(160, 95)), abs(complex(110, 170))
+    lean = math.acos((arm**2 + bar**2 - abs(complex(50, 75)) ** 2) / (2 * arm * bar))
+    half = np.arcsin(cylinder / (2 * arm)) + lean
+    assert np.max(np.abs(at["B"].imag + 2 * bar * np.sin(half))) <= 1e-12 * 400
+    # the ram comes to within 0.3 % of its dead centre, and there it moves slowest
+    assert 0.997 < np.max(-at["B"].imag) / (2 * bar) < 1
+
+
 def test_the_toggle_clamp_presses_down_where_handle_and_link_are_in_line() -> None:
     scene = load("toggle-clamp")
     # Crank, rod and the line from O2 to the upright handle's end form a triangle: twice a turn.
