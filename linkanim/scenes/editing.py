@@ -652,8 +652,8 @@ def _driven_along(slide: Slide, at: Mapping[str, complex]) -> complex:
 def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:
     """Return the phase near `phase` at which the input crank points at `point` (scene's unit).
 
-    A slider that drives comes as near to the point as its guide allows, which may move, as it lies now; the end
-    of a cylinder that stands on a moving link comes as near as it ever does.
+    A slider that drives comes as near to the point as its guide allows, which may move, as it lies now; the
+    end of a cylinder that stands on a moving link comes as near as it ever does.
 
     An input that swings stops at its limits. Of the two phases of an angle the nearer one is returned; past a
     limit, the one on the other way. A point on the pivot itself changes nothing.
