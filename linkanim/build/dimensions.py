@@ -17,6 +17,7 @@ from linkanim.scenes import file_form
 from linkanim.scenes.editing import Dimension, dimension_of, written
 from linkanim.scenes.form import LENGTH, LENGTHS, NAME, OFFSET, Context, Field, Form, Key, Table
 from linkanim.units import is_quantity, shown
+from linkanim.words import said
 
 _FORMS: Mapping[str, Form] = {
     "bars": Form((file_form.CRANK.field("length"),)),
@@ -86,7 +87,9 @@ def write(building: Building, text: str) -> Building:
     """
     row = _chosen_row(building)
     if row and row.number is None and not building.lettered:
-        return refused(building, f"Choose its {row.label} among the rows, then type it")
+        return refused(
+            building, said("Choose its {label} among the rows, then type it", label=said(row.label))
+        )
     typed = "" if building.is_refusal else building.typed
     return replace(building, typed=(typed + text)[:_LONGEST], sentence="", is_refusal=False)
 
@@ -104,9 +107,13 @@ def choose_number(building: Building, further: int) -> Building:
     place = (building.row + further) % len(rows)
     row, how = rows[place], ""
     if row.options:
-        how = f"{row.label.capitalize()}: {', '.join(row.options)}; type one, or click again for the next"
+        how = said(
+            "{property}: {options}; type one, or click again for the next",
+            property=said(row.label).capitalize(),
+            options=", ".join(row.options),
+        )
     elif row.number is None:
-        how = f"Type another {row.label}, then Enter"
+        how = said("Type another {label}, then Enter", label=said(row.label))
     bare = replace(building, row=place, typed="", sentence=how, is_refusal=False)
     return replace(bare, lettered=row.number is None)
 
@@ -142,7 +149,7 @@ def accept(building: Building) -> Building:
     """
     draft, fields = building.draft, list(_fields(building.draft, building.chosen))
     if not fields or not building.typed.strip():
-        return refused(building, "Choose what has a length or an angle, then type it")
+        return refused(building, said("Choose what has a length or an angle, then type it"))
     building = replace(building, row=_row_for(building, fields))
     key, one = fields[building.row]
     assert one.plain
@@ -205,7 +212,7 @@ def _named(building: Building, key: Key, name: str) -> Building:
     after = renamed(draft, kind, old, name)
     if kind == JOINT and chosen and chosen[0] in ("bars", "slots"):
         chosen = None
-    return changed(building, after, chosen, f"{old} is {name} now")
+    return changed(building, after, chosen, said("{old} is {name} now", old=old, name=name))
 
 
 def _with_body(building: Building, key: Key) -> Draft:
@@ -359,6 +366,12 @@ def _refuse(draft: Draft, key: Key, one: Field, value: object) -> None:
     plain.read(holder, part)
     if key[0] == "bars" and key[1] in lengths_within(draft):
         first, second = draft.ends(str(key[1]))
-        raise holder.wrong(f"{first} and {second} are points of one body: move one to set their distance")
+        raise holder.wrong(
+            said(
+                "{first} and {second} are points of one body: move one to set their distance",
+                first=first,
+                second=second,
+            )
+        )
     if key[-2:-1] == ("at",) and value == 0 and _stated(draft, (*key[:-1], 1 - int(key[-1]))) == 0:
-        raise holder.wrong("lies on the axis' first joint itself; give a place beside it")
+        raise holder.wrong(said("lies on the axis' first joint itself; give a place beside it"))

@@ -47,6 +47,7 @@ from linkanim.build.places import (
 )
 from linkanim.build.pose_form import bodies_of
 from linkanim.build.scene_form import made
+from linkanim.words import said, said_as
 
 # What a hand draws, by name: each gesture returns another building, or the same one and why.
 
@@ -71,19 +72,34 @@ def bar(building: Building, start: str, end: Thing | None, at: complex, *, snap:
     if end and end[0] == JOINT:
         name = end[1]
         if {start, name} <= draft.of("pins").keys() and start != name:
-            return refused(building, f"{start} and {name} stand on the ground, and that is one body already")
+            return refused(
+                building,
+                said(
+                    "{start} and {name} stand on the ground, and that is one body already",
+                    start=start,
+                    name=name,
+                ),
+            )
         if known := draft.bar(start, name):
-            return refused(building, f"Bar {known} is there already")
+            return refused(building, said("Bar {known} is there already", known=known))
         if any({start, name} <= plate.keys() for plate in plates_of(draft)) and start != name:
             return refused(
-                building, f"{start} and {name} are points of one body: move one to set their distance"
+                building,
+                said(
+                    "{start} and {name} are points of one body: move one to set their distance",
+                    start=start,
+                    name=name,
+                ),
             )
     else:
         if end and end[0] == "bars" and start in draft.ends(end[1]):
-            return refused(building, f"{start} is an end of that bar: let go beside it, or on another bar")
+            return refused(
+                building,
+                said("{start} is an end of that bar: let go beside it, or on another bar", start=start),
+            )
         draft, name = _with_joint(draft, end, at, snap)
     if place_of(draft, name) == place_of(draft, start):
-        return refused(building, f"A bar needs a length: let go further from {start}")
+        return refused(building, said("A bar needs a length: let go further from {start}", start=start))
     draft = _with_bar(draft, start, name, snap)
     return changed(building, draft, ("bars", draft.bar(start, name) or ""))
 
@@ -93,7 +109,9 @@ def point(building: Building, name: str, place: complex, *, snap: float) -> Buil
     draft, on = building.draft, building.draft.ends(name)
     new, at = joint_name(draft, point=True), at_on(draft, on, place, snap)
     if at == [0, 0]:
-        return refused(building, f"That is {on[0]} itself: a point of a body lies beside its joints")
+        return refused(
+            building, said("That is {part} itself: a point of a body lies beside its joints", part=on[0])
+        )
     draft = draft.placing(new, place).having("points", new, {"on": on, "at": at})
     for body, table in draft.of("bodies").items():
         if set(on) <= set(table.get("joints", ())):
@@ -105,7 +123,7 @@ def guide(building: Building, start: Thing | None, begin: complex, end: complex,
     """Return the building with a line through a point: on the ground, or on the body of a joint or a bar."""
     draft, span = building.draft, end - begin
     if not span:
-        return refused(building, "A guide needs a direction: drag along it")
+        return refused(building, said("A guide needs a direction: drag along it"))
     through, on = _carrier(draft, start)
     if on:
         axis = place_of(draft, on[1]) - place_of(draft, on[0])
@@ -129,8 +147,12 @@ def slider(building: Building, joint: str | None, name: str, at: complex, *, sna
     if joint is None:
         draft, joint = _with_joint(draft, ("guides", name), at, snap)
     elif held := next((kind for kind in ("pins", "points", "sliders") if joint in draft.of(kind)), None):
-        words = {"pins": "stands on the ground", "points": "is a point of a body"}
-        return refused(building, f"{joint} {words.get(held, 'slides on a guide')} already")
+        words = {
+            "pins": lambda: said("{joint} stands on the ground already", joint=joint),
+            "points": lambda: said("{joint} is a point of a body already", joint=joint),
+            "sliders": lambda: said("{joint} slides on a guide already", joint=joint),
+        }
+        return refused(building, words[held]())
     else:
         draft = moved(_with_slider(draft, joint, name), joint, place_of(draft, joint), snap)
     return changed(building, draft, (JOINT, joint))
@@ -141,10 +163,12 @@ def slot(building: Building, joint: str, end: Thing) -> Building:
     draft, (kind, name) = building.draft, end
     if kind == "bars":
         if joint in draft.ends(name):
-            return refused(building, f"{joint} is an end of that bar, and cannot slide in it")
+            return refused(
+                building, said("{joint} is an end of that bar, and cannot slide in it", joint=joint)
+            )
         return changed(building, _with_slot(draft, name, joint), (JOINT, joint))
     if kind != JOINT or name not in draft.of("sliders") or name == joint:
-        return refused(building, "A slot is in a bar, or in a slider that has none: let go on one")
+        return refused(building, said("A slot is in a bar, or in a slider that has none: let go on one"))
     return changed(building, draft.having("yokes", name, {"pin": joint, "slot": "90 deg"}), (JOINT, name))
 
 
@@ -153,9 +177,9 @@ def gear(building: Building, joint: str, mate: str, *, snap: float) -> Building:
     draft = building.draft
     others = [end for _, end, _ in draft.bars_at(joint)]
     if joint == mate or not others or joint in draft.of("pins") or not crank_of(draft, mate):
-        return refused(building, "A gear pair joins two cranks: drag from one to the other")
+        return refused(building, said("A gear pair joins two cranks: drag from one to the other"))
     if joint == draft.driven:
-        return refused(building, f"{joint} is driven: let the other crank follow it")
+        return refused(building, said("{joint} is driven: let the other crank follow it", joint=joint))
     table = {"with": mate, "ratio": -1, "offset": "0 deg"}
     draft = draft.having("gears", joint, table)
     table["offset"] = gear_offset(draft, joint, table, snap)
@@ -170,7 +194,9 @@ def strut(
     if end is None:
         draft, end = _with_pin(draft, at, snap)
     if start == end:
-        return refused(building, f"A {kind} has two ends: let go further from {start}")
+        return refused(
+            building, said("A {kind} has two ends: let go further from {start}", kind=said(kind), start=start)
+        )
     kinds = f"{kind}s"
     name = numbered(draft, kinds, kind)
     return changed(building, draft.having(kinds, name, {"between": [start, end]}), (kinds, name))
@@ -182,7 +208,9 @@ def cylinder(building: Building, start: str, end: str, *, snap: float) -> Buildi
     fixed, moving = (start, end) if start in draft.of("pins") else (end, start)
     crank = _turning_with(draft, moving)
     if fixed not in draft.of("pins") or crank is None or crank[0] == fixed:
-        return refused(building, "A cylinder drives a body that turns about a ground pin, from another pin")
+        return refused(
+            building, said("A cylinder drives a body that turns about a ground pin, from another pin")
+        )
     length = abs(place_of(draft, moving) - place_of(draft, fixed))
     own = crank_drive(draft, *crank, snap)
     drives = []
@@ -190,7 +218,7 @@ def cylinder(building: Building, start: str, end: str, *, snap: float) -> Buildi
         limits = [round_length(length * (1 + sign * part), snap) for sign in (-1, 1)]
         table = {"between": [fixed, moving], "from": limits[0], "to": limits[1], "joint": own["joint"]}
         drives.append({"speed": own["speed"], "start": own["start"], "cylinder": table})
-    return driven(building, draft, drives, DRIVE, f"The cylinder drives {crank[1]}")
+    return driven(building, draft, drives, DRIVE, said("The cylinder drives {part}", part=crank[1]))
 
 
 def driven(
@@ -219,7 +247,7 @@ def fit_photo(building: Building, *points: float) -> Building:
     """
     one, there, other, beyond = (complex(*points[n : n + 2]) for n in (0, 2, 4, 6))
     if one == other or there == beyond:
-        return refused(building, "Two points fit a photograph: take them apart from each other")
+        return refused(building, said("Two points fit a photograph: take them apart from each other"))
     scale = (beyond - there) / (other - one)
     return _fitted(building, scale, there - scale * one)
 
@@ -227,7 +255,7 @@ def fit_photo(building: Building, *points: float) -> Building:
 def scale_photo(building: Building, one: complex, other: complex, length: float) -> Building:
     """Return the building with its photograph scaled about `one`, which puts `other` `length` away."""
     if one == other:
-        return refused(building, "Two points of a photograph have a distance: take them apart")
+        return refused(building, said("Two points of a photograph have a distance: take them apart"))
     scale = length / abs(other - one)
     return _fitted(building, complex(scale), one - scale * one)
 
@@ -236,7 +264,7 @@ def _fitted(building: Building, scale: complex, shift: complex) -> Building:
     """Return the building with its photograph's places z, as x + yi, brought to scale·z + shift."""
     photo = building.draft.photo
     if photo is None:
-        return refused(building, "There is no photograph: drop one on the window")
+        return refused(building, said("There is no photograph: drop one on the window"))
     place = scale * complex(*photo.place) + shift
     turn = phase(scale * rect(1.0, photo.turn))
     return _photographed(
@@ -327,7 +355,7 @@ def choose(building: Building, further: int) -> Building:
     """Return the building with the thing chosen that is `further` places on: joints, bars, guides, ..."""
     things = list(building.draft.things())
     if not things:
-        return refused(building, "Nothing is drawn yet: a click sets a ground pin")
+        return refused(building, said("Nothing is drawn yet: a click sets a ground pin"))
     now = things.index(building.chosen) if building.chosen in things else -1 if further > 0 else 0
     return choosing(building, things[(now + further) % len(things)])
 
@@ -354,14 +382,14 @@ def move(building: Building, x: float, y: float, *, snap: float) -> Building:
         start, direction = line_of(draft, table)
         offset = round_number(((place - start) * direction.conjugate()).imag, snap)
         return changed(building, fitted(with_number(draft, (*thing, "offset"), offset)), thing)
-    return refused(building, "Choose a joint or a guide to move it")
+    return refused(building, said("Choose a joint or a guide to move it"))
 
 
 def trace(building: Building) -> Building:
     """Return the building with the curve of the chosen joint drawn, or no longer."""
     draft, thing = building.draft, building.chosen
     if not thing or thing[0] != JOINT:
-        return refused(building, "Choose a joint to draw its curve")
+        return refused(building, said("Choose a joint to draw its curve"))
     remaining = [name for name in draft.trace if name != thing[1]]
     joints = remaining if thing[1] in draft.trace else [*remaining, thing[1]]
     return changed(building, replace(draft, rest={**draft.rest, "trace": {"joints": joints}}), thing)
@@ -385,29 +413,36 @@ def drives(building: Building, *, here: bool = False) -> Iterator[tuple[str, Bui
         bare = draft.having("gears", joint, None).having("drives", joint, None)
         if joint in draft.of("sliders"):
             slides = _slider_drives(draft, joint)
-            drafts.append((f"{joint} slides", driven(building, bare, slides, thing, f"{joint} is driven")))
+            drafts.append(
+                (
+                    said("{joint} slides", joint=joint),
+                    driven(building, bare, slides, thing, said("{joint} is driven", joint=joint)),
+                )
+            )
             continue
         pivot = str(crank_of(draft, joint))
         table = crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
-        one = driven(building, bare, [table], thing, f"{joint} is driven")
-        drafts.append((f"{joint} turns about {pivot}", one))
+        one = driven(building, bare, [table], thing, said("{joint} is driven", joint=joint))
+        drafts.append((said("{joint} turns about {pivot}", joint=joint, pivot=pivot), one))
         cranked = draft.driven and not draft.drive.keys() & {"cylinder", "slider"}
         if cranked and joint != draft.driven and mobility(bare) > 1 + len(bare.of("drives")):
-            words = f"{joint} has a motor, too"
+            words = said("{joint} has a motor, too", joint=joint)
             further = {"speed": table["speed"], "start": table["start"]}
             more = changed(building, bare.having("drives", joint, further), thing, words)
             place = 0 if more.made.scene else len(drafts)
-            drafts.insert(place, (f"{joint} turns about {pivot}, too", more))
+            drafts.insert(place, (said("{joint} turns about {pivot}, too", joint=joint, pivot=pivot), more))
     kind, name = thing or ("", "")
     first = len(drafts) if kind == JOINT and name not in (*draft.of("pins"), *draft.of("sliders")) else 0
     for pivot, arms in _moving_motors(draft, thing):
         speed = draft.drive.get("speed", SPEED)
         table = {"motor": {"pivot": pivot, "between": [*arms]}, "speed": speed}
         own, turned = (draft.body_of([pivot, arm]) or f"{pivot}–{arm}" for arm in arms)
-        words = f"link {turned} turns on link {own} at {pivot}"
-        drafts.append((words, driven(building, draft, [table], thing, f"The motor is at {pivot}")))
+        words = said("link {turned} turns on link {own} at {pivot}", turned=turned, own=own, pivot=pivot)
+        drafts.append(
+            (words, driven(building, draft, [table], thing, said("The motor is at {pivot}", pivot=pivot)))
+        )
     if not drafts:
-        why = "Choose a crank (a bar on a ground pin), a slider, or a joint of two bars to drive it"
+        why = said("Choose a crank (a bar on a ground pin), a slider, or a joint of two bars to drive it")
         drafts.append(("", refused(building, why)))
     yield from drafts[first:] + drafts[:first] if here else drafts
 
@@ -415,20 +450,29 @@ def drives(building: Building, *, here: bool = False) -> Iterator[tuple[str, Bui
 def motor(building: Building, x: float, y: float, *, reach: float) -> Building:
     """Return the building with the thing at a point chosen, for a motor to be let go there."""
     thing = under(building.draft, x, y, reach)
-    return choosing(building, thing) if thing else refused(building, "Let the motor go on a joint, or a bar")
+    return (
+        choosing(building, thing)
+        if thing
+        else refused(building, said("Let the motor go on a joint, or a bar"))
+    )
 
 
 def delete(building: Building) -> Building:
     """Return the building without the chosen thing, and without what depends on it alone."""
     draft, thing = building.draft, building.chosen
     if thing is None:
-        return refused(building, "Choose what is to be removed")
+        return refused(building, said("Choose what is to be removed"))
     remaining = _without(draft, thing)
     kept = {*remaining.things(), thing, DRIVE}
     gone = (one for one in draft.things() if one not in kept)
-    first, *others = (f"{_WORDS.get(kind, kind[:-1])} {name}" for kind, name in (thing, *gone))
-    with_it = f", with {', '.join(others)}" if others else ""
-    return changed(building, remaining, None, f"Removed {first}{with_it}")
+    first, *others = (
+        said("{kind} {name}", kind=said(_WORDS.get(kind, kind[:-1])), name=name)
+        for kind, name in (thing, *gone)
+    )
+    words = said("Removed {thing}", thing=first)
+    if others:
+        words = said("Removed {thing}, with {others}", thing=first, others=said_as("list", ", ").join(others))
+    return changed(building, remaining, None, words)
 
 
 def _drivable(draft: Draft, thing: Thing | None) -> Iterator[str]:
@@ -562,7 +606,7 @@ def double_click(building: Building, x: float, y: float, *, reach: float, snap: 
     """Return the building with a point on the body that lies there."""
     thing = under(building.draft, x, y, reach)
     if thing is None or thing[0] != "bars":
-        return refused(building, "A point lies on a body: double-click on a bar")
+        return refused(building, said("A point lies on a body: double-click on a bar"))
     return point(building, thing[1], snapped(complex(x, y), snap), snap=snap)
 
 

@@ -28,8 +28,8 @@ from linkanim.build.gestures import (
 )
 from linkanim.build.places import crank_of, from_span, place_of, snapped
 from linkanim.frozen import NamedTuple
+from linkanim.words import said
 
-_TARGETS = {"slider": "on a guide", "slot": "on a bar, or on a slider"}
 _STUB = 0.5
 """A bar from a crank's pin onto a lever is a slot where it is shorter than this share of the crank."""
 _BEYOND = 1.1
@@ -92,20 +92,31 @@ def _one(building: Building, drag: Drag) -> Iterator[Meaning]:
     to = snapped(drag.to, snap)
     if drag.tool == "move":
         chosen = choose_thing(building, *start) if start else building
-        yield Meaning("move", move(chosen, drag.to.real, drag.to.imag, snap=snap))
+        yield Meaning(said("move"), move(chosen, drag.to.real, drag.to.imag, snap=snap))
     elif drag.tool == "guide":
         begin = place_of(building.draft, start[1]) if start and start[0] == JOINT else drag.begin
-        yield Meaning("line", guide(building, start, begin, to, snap=snap))
+        yield Meaning(said("line"), guide(building, start, begin, to, snap=snap))
     elif start is None or start[0] != JOINT:
         yield Meaning(
-            "", refused(building, f"Begin a {drag.tool} at a pin or a joint; a click sets a ground pin")
+            "",
+            refused(
+                building,
+                said("Begin a {tool} at a pin or a joint; a click sets a ground pin", tool=said(drag.tool)),
+            ),
         )
     elif drag.tool == "slider" and end and end[0] == "guides":
-        yield Meaning("slider", slider(building, start[1], end[1], drag.to, snap=snap))
+        yield Meaning(said("slider"), slider(building, start[1], end[1], drag.to, snap=snap))
     else:
-        yield Meaning(
-            "", refused(building, f"Let the {drag.tool} go {_TARGETS.get(drag.tool, 'on a joint')}")
-        )
+        yield Meaning("", refused(building, _target(drag.tool)))
+
+
+def _target(tool: str) -> str:
+    """Say where the hand has to let go."""
+    if tool == "slider":
+        return said("Let the slider go on a guide")
+    if tool == "slot":
+        return said("Let the slot go on a bar, or on a slider")
+    return said("Let the {tool} go on a joint", tool=said(tool))
 
 
 def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
@@ -115,19 +126,23 @@ def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
     """
     draft, start, end, snap = building.draft, drag.start, drag.end, drag.snap
     if start and start[0] == "bars":
-        yield Meaning("point", point(building, start[1], snapped(drag.to, snap), snap=snap))
+        yield Meaning(said("point"), point(building, start[1], snapped(drag.to, snap), snap=snap))
         return
     if start is None or start[0] != JOINT:
         yield from _one(building, drag)
         return
-    rod = Meaning("bar with a pin in the slot", bar(building, start[1], end, drag.to, snap=snap))
+    rod = Meaning(said("bar with a pin in the slot"), bar(building, start[1], end, drag.to, snap=snap))
     if end is None or end[0] != "bars":
         yield rod
         return
     joint, lever = start[1], end[1]
     crank = crank_of(draft, joint)
     slides = crank is not None and joint not in draft.ends(lever) and _is_lever(draft, lever)
-    slotted = Meaning(f"{joint} slides in the bar", slot(building, joint, end)) if slides else None
+    slotted = (
+        Meaning(said("{joint} slides in the bar", joint=joint), slot(building, joint, end))
+        if slides
+        else None
+    )
     away = abs(place_of(draft, joint) - drag.to)
     is_stub = crank is not None and away < _STUB * abs(place_of(draft, joint) - place_of(draft, crank))
     if slotted and is_stub:
@@ -140,7 +155,7 @@ def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
         pinned, name = _with_point(building, lever, drag.to, snap)
         made = bar(pinned, joint, (JOINT, name), drag.to, snap=snap) if name else pinned
         if made.draft is not pinned.draft:
-            words = "bar pinned to the plate" if on_side else "bar pinned to the bar"
+            words = said("bar pinned to the plate") if on_side else said("bar pinned to the bar")
             yield Meaning(words, _as_one(building, made))
         elif on_side:
             yield Meaning("", refused(building, made.sentence))
@@ -165,7 +180,7 @@ def _slots(building: Building, drag: Drag) -> Iterator[Meaning]:
     if end is None:
         yield from _one(building, drag)
         return
-    yield Meaning("slot", slot(building, start[1], end))
+    yield Meaning(said("slot"), slot(building, start[1], end))
 
 
 def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[Meaning]:
@@ -173,11 +188,15 @@ def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[M
     draft = building.draft
     known = [name for name, end, _ in draft.bars_at(pivot) if end != over and _is_lever(draft, name)]
     for name in known:
-        yield Meaning(f"{over} slides in {name}", slot(building, over, ("bars", name)))
+        yield Meaning(
+            said("{over} slides in {name}", over=over, name=name), slot(building, over, (said("bars"), name))
+        )
     if known:
         return
     if draft.bar(pivot, over):
-        yield Meaning("", refused(building, f"{over} is an end of that bar, and cannot slide in it"))
+        yield Meaning(
+            "", refused(building, said("{over} is an end of that bar, and cannot slide in it", over=over))
+        )
         return
     at, on = place_of(draft, pivot), place_of(draft, over)
     span = on - at
@@ -192,7 +211,9 @@ def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[M
     if lever.draft is draft or lever.chosen is None:
         yield Meaning("", lever)
         return
-    yield Meaning(f"{over} slides in a new lever", _as_one(building, slot(lever, over, lever.chosen)))
+    yield Meaning(
+        said("{over} slides in a new lever", over=over), _as_one(building, slot(lever, over, lever.chosen))
+    )
 
 
 def _gears(building: Building, drag: Drag) -> Iterator[Meaning]:
@@ -203,12 +224,15 @@ def _gears(building: Building, drag: Drag) -> Iterator[Meaning]:
     draft = building.draft
     ones, others = ([*_cranks(draft, thing)] for thing in (drag.start, drag.end))
     if drag.start is None or not (ones and others):
-        yield Meaning("", refused(building, "A gear pair joins two cranks: drag from one to the other"))
+        yield Meaning("", refused(building, said("A gear pair joins two cranks: drag from one to the other")))
     for one in ones:
         for mate in others:
             leads = one == draft.driven or (mate in draft.of("gears") and one not in draft.of("gears"))
             first, second = (mate, one) if leads and mate != draft.driven else (one, mate)
-            yield Meaning(f"{first} follows {second}", gear(building, first, second, snap=drag.snap))
+            yield Meaning(
+                said("{first} follows {second}", first=first, second=second),
+                gear(building, first, second, snap=drag.snap),
+            )
 
 
 def _cranks(draft: Draft, thing: Thing | None) -> Iterator[str]:
@@ -233,7 +257,7 @@ def _struts(building: Building, drag: Drag) -> Iterator[Meaning]:
             after = pin(now, at, snap=drag.snap)
             name = after.chosen[1] if after.chosen else ""
         if not name:
-            wrong = f"Let the {drag.tool} go on a pin, a joint or a bar"
+            wrong = said("Let the {tool} go on a pin, a joint or a bar", tool=said(drag.tool))
             yield Meaning(
                 "",
                 refused(building, after.sentence if after.draft is now.draft and after.sentence else wrong),

@@ -20,6 +20,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.scenes.editing import numbers
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
+from linkanim.words import said
 
 _PHASES = (0.5, 1.5, 3.0, 4.5)
 """Phases at which a drawing may show its closure where its drawn pose does not."""
@@ -40,7 +41,7 @@ def renumbered(building: Building, scene: Scene, *, grows: bool = True) -> Build
     posed = (_posed(one, scene, phase) for one in drafts if one for phase in phases)
     after = next((one for one in posed if _makes(one, scene)), None)
     if after is None:
-        raise BadInput("the sheet cannot tell this closure from the other: leave it first")
+        raise BadInput(said("the sheet cannot tell this closure from the other: leave it first"))
     chosen = building.chosen if building.chosen in {*after.things()} else None
     past = grown(building) if grows else building.past
     # the building makes this scene, parts of which are worked out already

@@ -21,6 +21,7 @@ from linkanim.mechanics.groups import GROUND, GroupLink, GroupSlide, LinkGroup, 
 from linkanim.mechanics.linkage import Line
 from linkanim.scenes.links import in_degrees, nearest
 from linkanim.scenes.scene import Scene
+from linkanim.words import said
 
 _NEAR = 1e-9
 _SAME = 1e-12
@@ -126,7 +127,7 @@ def posed_tables(draft: Draft) -> dict[str, Any]:
     """Return the tables of a scene file with points and links; BadInput where its lengths cannot be."""
     pose = assembled(draft)
     if pose is None:
-        raise BadInput("The bars cannot all meet: no pose near the drawing has all their lengths")
+        raise BadInput(said("The bars cannot all meet: no pose near the drawing has all their lengths"))
     links = _Links(pose)
     lengths: dict[str, dict[str, Any]] = {}
     for table in pose.of("bars").values():
@@ -163,7 +164,9 @@ def _drive(draft: Draft, links: _Links) -> dict[str, Any]:
         pivot, arms = stated["motor"]["pivot"], stated["motor"]["between"]
         both = [links.of(pivot, arm) for arm in arms]
         if not all(both) or both[0] == both[1]:
-            raise BadInput(f"The motor at {pivot} has no two links there: let it go on another joint")
+            raise BadInput(
+                said("The motor at {pivot} has no two links there: let it go on another joint", pivot=pivot)
+            )
         return {"joint": pivot, "links": both, **kept}
     if "slider" in stated:
         return {"slide": links.blocks[str(draft.driven)], **_ends(draft, stated["slider"]), **kept}
@@ -219,7 +222,7 @@ class _Apart:
         """Return the draft."""
         members, driven = self.group.members, self.group.driven_slide
         if driven and (driven.on != GROUND or driven.turns):
-            reason = "is driven by a length between moving links, which a sheet does not draw"
+            reason = said("is driven by a length between moving links, which a sheet does not draw")
             raise BadInput(f"{self.scene.name}: {reason}")
         places = {name: place for one in members for name, place in zip(one.points, one.places, strict=True)}
         order = [name for name in self.document["points"] if name in places]

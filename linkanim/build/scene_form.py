@@ -26,6 +26,7 @@ from linkanim.scenes.file_form import SHORTHANDS, Expansion, names_of
 from linkanim.scenes.form import Context, Field, Table
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.words import said, said_many, to_say
 
 # A photograph behind the drawing, and its table in a scene file.
 
@@ -231,8 +232,8 @@ def _degrees(angle: float) -> str:
 
 # Why a draft does not move yet, in the trade's terms, and what would make it move.
 
-EMPTY = "An empty sheet: click where the first ground pin stands"
-_WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair"}
+EMPTY = to_say("An empty sheet: click where the first ground pin stands")
+_WORDS = {"sliders": to_say("guide"), "yokes": to_say("slot"), "gears": to_say("gear pair")}
 _HOLDING = ("points", "bars", "sliders", "slots", "yokes", "gears")
 """The kinds that hold joints."""
 _OWN = ("points", "sliders", "yokes", "gears")
@@ -243,14 +244,14 @@ _KEYS = r"^draft: (joints: |links: |points: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<
 def missing(draft: Draft, known: JointTables) -> str:
     """Return what a draft lacks before its scene can be read; `known` are its found joints. "" if nothing."""
     if not draft.of("pins"):
-        return EMPTY
+        return said(EMPTY)
     if not draft.of("bars") and not draft.of("sliders"):
-        return "No bar yet: drag one from a ground pin"
+        return said("No bar yet: drag one from a ground pin")
     if draft.driven is None and "motor" not in draft.drive:
-        return "Nothing is driven: choose a crank or a slider, and make it the drive"
+        return said("Nothing is driven: choose a crank or a slider, and make it the drive")
     motors = 1 + len(draft.of("drives"))
     if motors > 1 and 0 < mobility(draft) < motors:
-        return f"Mobility {mobility(draft)}, but {motors} motors: remove one"
+        return said("Mobility {draft}, but {motors} motors: remove one", draft=mobility(draft), motors=motors)
     return _too_many(draft, known) or _free(draft, known)
 
 
@@ -260,7 +261,9 @@ def reworded(draft: Draft, error: BadInput) -> str:
     if apart := re.search(_APART, text):
         joint = apart["joint"]
         names = [_body_of(draft, joint, end) for _, end, _ in draft.bars_at(joint)]
-        return f"Bars {' and '.join(names[:2])} ({apart['lengths']}) cannot meet{text[apart.end() :]}"
+        bars = said("{one} and {other}", one=names[0], other=names[1]) if names[1:] else names[0]
+        words = said("Bars {bars} ({lengths}) cannot meet", bars=bars, lengths=apart["lengths"])
+        return words + text[apart.end() :]
     text = text.replace("give the points in another pose", "move a joint, or turn the crank first")
     name = (re.match(_KEYS, text) or {"name": None})["name"]
     text = f"{name or ''}: {re.sub(_KEYS, '', text)}".removeprefix(": ")
@@ -274,28 +277,47 @@ def _too_many(draft: Draft, known: JointTables) -> str:
         ends = set(ends_of(table)) if "from" in table else {name}
         if ends <= pins.keys() and "on" not in table.get("line", {}):
             if len(ends) < 2:
-                return f"{name} cannot move: its guide and its bar both stand on the ground; remove one"
+                return said(
+                    "{name} cannot move: its guide and its bar both stand on the ground; remove one",
+                    name=name,
+                )
             three = ", ".join(sorted((*ends, name)))
-            return f"{three}: all three pins in one body, which is the ground; remove a bar"
+            return said(
+                "{joints}: all three pins in one body, which is the ground; remove a bar", joints=three
+            )
     for bar, table in draft.of("bars").items():
         one, other = table["joints"]
         both = all(end in known or end in pins for end in (one, other))
         if any({one, other} <= plate.keys() for plate in plates):
             continue
         if both and other not in ends_of(known.get(one, {})) and one not in ends_of(known.get(other, {})):
-            why = f"{one} and {other} are held without it"
+            why = said("{one} and {other} are held without it", one=one, other=other)
             if third := _third(draft, one, other):
-                why = f"{', '.join(sorted((one, other, third)))} are all three pins in one body"
-            return f"Bar {_body_of(draft, one, other)} ({bar}) is one too many: {why}; remove a bar"
+                three = ", ".join(sorted((one, other, third)))
+                why = said("{joints} are all three pins in one body", joints=three)
+            return said(
+                "Bar {name} ({bar}) is one too many: {cause}; remove a bar",
+                name=_body_of(draft, one, other),
+                bar=bar,
+                cause=why,
+            )
     for kind, key in (("sliders", "line"), ("yokes", "slide"), ("gears", "gear")):
         for name in draft.of(kind):
             table, settled = known.get(name, {}), _named(draft, draft.of(kind)[name]) <= {*known, *pins}
             if table and settled and key not in table and not (kind == "sliders" and "slide" in table):
-                return f"The {_WORDS[kind]} of {name} is one too many: it is held without it; remove one"
+                return said(
+                    "The {part} of {name} is one too many: it is held without it; remove one",
+                    part=said(_WORDS[kind]),
+                    name=name,
+                )
     for name, slot in draft.of("slots").items():
         held = {slot["through"], *draft.ends(slot["bar"])}
         if {*known, *pins} >= held and not _slides(known, slot, draft.ends(slot["bar"])):
-            return f"The slot of {name} is one too many: {slot['through']} is held without it; remove one"
+            return said(
+                "The slot of {name} is one too many: {part} is held without it; remove one",
+                name=name,
+                part=slot["through"],
+            )
     return ""
 
 
@@ -324,20 +346,32 @@ def _free(draft: Draft, known: JointTables) -> str:
         return ""
     free, motors = mobility(draft), 1 + len(draft.of("drives"))
     if free > motors:
-        more = "one more bar" if free == motors + 1 else f"{free - motors} more bars"
-        another = f"{('a second', 'a third')[motors - 1] if motors < 3 else 'another'} motor"
+        more = said_many("one more bar", "{count} more bars", free - motors)
+        motor = (to_say("a second motor"), to_say("a third motor"), to_say("another motor"))[
+            min(motors, 3) - 1
+        ]
         loose = (
             name for name in stuck if len(list(draft.bars_at(name))) < 2 and name not in draft.of("points")
         )
-        hanging = "".join(f"; {name} is loose" for name in [*loose][:1])
-        return f"Mobility {free}: {more}, {another} or a gear pair{hanging}"
+        words = said(
+            "Mobility {count}: {bars}, {motor} or a gear pair", count=free, bars=more, motor=said(motor)
+        )
+        hanging = next(loose, "")
+        return said("{words}; {joint} is loose", words=words, joint=hanging) if hanging else words
     for group in (_together(draft, stuck, name) for name in stuck):
         if mobility(draft, group | known.keys()) < 1:
-            return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
+            return said(
+                "Mobility {free}: {part} cannot move; remove a bar", free=free, part=", ".join(sorted(group))
+            )
     if bar := redundant_bar(draft):
         one, other = draft.ends(bar)
-        why = f"{one} and {other} are held without it"
-        return f"Bar {_body_of(draft, one, other)} ({bar}) is one too many: {why}; remove a bar"
+        why = said("{one} and {other} are held without it", one=one, other=other)
+        return said(
+            "Bar {name} ({bar}) is one too many: {cause}; remove a bar",
+            name=_body_of(draft, one, other),
+            bar=bar,
+            cause=why,
+        )
     return ""
 
 

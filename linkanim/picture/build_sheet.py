@@ -37,13 +37,14 @@ from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.units import significant
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.synthesis.curves import DrawnCurve
 
 # A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles.
 
-HINT = "draw a path in one stroke"
+HINT = to_say("draw a path in one stroke")
 _GRID = 36
 """The least distance of the sheet's lines, in units."""
 _DASH, _GAP = 3.2, 2.2
@@ -89,7 +90,7 @@ def drawn_line(setting: DrawSetting, pen: Sequence[complex], curve: DrawnCurve |
     layout, theme, size = setting.layout, setting.theme, setting.layout.text_size
     if not points.size:
         at = layout.size[0] / 2, layout.size[1] / 2 - size
-        return Group("pencil", (), [Caption(HINT, at, size, theme.dim, "centre")])
+        return Group("pencil", (), [Caption(said(HINT), at, size, theme.dim, "centre")])
     line = stroke(_in_pixels(setting.view, points), max(2.6 * layout.unit, 1.6))
     return Group("pencil", [Layer(theme.ink, line)])
 
@@ -330,7 +331,7 @@ def dots(points: Sequence[Point], setting: DrawSetting) -> Group:
 def grid_words(setting: DrawSetting, length_unit: str) -> Group:
     """Return how far the lines of the grid are apart, at the lower right."""
     layout, size = setting.layout, setting.layout.small_size
-    words = f"grid {significant(grid_step(setting.view, layout), 3)} {length_unit}"
+    words = said("grid {length}", length=f"{significant(grid_step(setting.view, layout), 3)} {length_unit}")
     at = layout.stage.right - layout.margin, layout.stage.bottom - 1.7 * size
     halo = Halo(setting.theme.background, 0.15 * size)
     return Group(

@@ -37,7 +37,7 @@ from linkanim.picture.view import Rect, eased
 from linkanim.scenes.editing import beyond_title
 from linkanim.scenes.scene import Scene
 from linkanim.units import stepped, three_digits
-from linkanim.words import name_said, said
+from linkanim.words import name_said, said, to_say
 
 if TYPE_CHECKING:
     from linkanim.picture.ink import InkScale
@@ -159,7 +159,7 @@ def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
     linkage, known = scene.linkage, register(scene.linkage)
     for item in linkage.springs + linkage.dampers:
         word = linkage.strut_word(item)
-        part = "rate" if word == "damper" else "length"
+        part = to_say("rate") if word == "damper" else to_say("length")
         words = said("{strut}, {measure}", strut=linkage.strut_words(item), measure=said(part))
         yield MeasuredRow(4, words, known[f"{item.name}.{part}"], scene.length_step)
         if item.forceful:

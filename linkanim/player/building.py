@@ -890,7 +890,7 @@ def _panel_of_draft(building: Building) -> Panel:
     rows = (
         EditRow(
             subscripted_words(
-                said("{part}, {property}", part=called(draft, one.thing), property=one.row.label)
+                said("{part}, {property}", part=called(draft, one.thing), property=said(one.row.label))
             ),
             stated(one.row, building, n == at),
             chosen=n == at,

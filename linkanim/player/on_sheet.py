@@ -159,7 +159,7 @@ class SheetDrawing:
         from linkanim.picture.sheet_rows import SheetRows
 
         row = building.row % len(own_rows)
-        rows = [(one.label, stated(one, building, n == row)) for n, one in enumerate(own_rows)]
+        rows = [(said(one.label), stated(one, building, n == row)) for n, one in enumerate(own_rows)]
         options = tuple(n for n, one in enumerate(own_rows) if one.options)
         return SheetRows(subscripted_words(called(draft, thing)), tuple(rows), row, options=options)
 
@@ -186,7 +186,9 @@ class SheetDrawing:
             return ""
         value = "–" if isnan(one.value) else significant(one.value, 6)
         return typeset(
-            f"{one.label} {building.typed}_" if building.typed else f"{one.label} {value} {one.unit}"
+            f"{said(one.label)} {building.typed}_"
+            if building.typed
+            else f"{said(one.label)} {value} {one.unit}"
         )
 
     @property

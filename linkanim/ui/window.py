@@ -147,7 +147,7 @@ class Window:
             for frame in range(frames):
                 self._advance(events if frame == 0 else [])
         with speaking(self.state.speaks):
-            if self._good and self._good.speaks != self.state.speaks:
+            if self._good and self._good.language != self.state.language:
                 self.screen = Screen(self.state)  # whatever it keeps is in the language before
             self._show()
         return self._open

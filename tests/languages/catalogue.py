@@ -23,6 +23,7 @@ from babel.messages.pofile import read_po, write_po
 
 import linkanim
 from linkanim.frozen import NamedTuple
+from linkanim.scenes.form import Field, Form, Named
 from linkanim.words import ENGLISH, FOLDER, LANGUAGES
 
 TRANSLATED = tuple(language for language in LANGUAGES if language != ENGLISH)
@@ -95,6 +96,7 @@ def _of_the_window() -> Iterator[Sentence]:
     from linkanim.build.tools import TOOLS
     from linkanim.player.keys import GROUPS, KEYS, commands
     from linkanim.player.modes import KEYS_OF
+    from linkanim.scenes.file_form import SCENE_FILE
 
     for table in (KEYS, *(mode.table for mode in KEYS_OF.values())):
         for subject, rows in table.items():
@@ -110,7 +112,37 @@ def _of_the_window() -> Iterator[Sentence]:
         yield Sentence(None, group.title.lower(), None, f"GROUPS: {group.title}")
     for tool in TOOLS:
         yield Sentence(None, tool.name, None, f"TOOLS: {tool.icon}")
-    yield Sentence(None, "speed", None, "the slider of the speed")
+        if tool.action == "tool":
+            yield Sentence(None, str(tool.value), None, f"TOOLS: {tool.icon}")
+    for words in _OF_A_SHEET:
+        yield Sentence(None, words, None, "what a sheet shows")
+    for field in _fields(SCENE_FILE):
+        for label in (field.label,) if isinstance(field.label, str) else field.label:
+            if re.search("[A-Za-z]{2}", re.sub(r"\{\w+\}", "", label)):
+                yield Sentence(None, label, None, f"the dimension {field.key}")
+        if field.key:
+            yield Sentence(None, field.key.replace("_", " "), None, f"a property of a part: {field.key}")
+
+
+def _fields(form: Form) -> Iterator[Field]:
+    """Yield the fields of a form and of those within it."""
+    for field in (*form.fields, *filter(None, [form.plain])):
+        yield field
+        within = field.type
+        if isinstance(within, Form):
+            yield from _fields(within)
+        elif isinstance(within, Named):
+            yield from filter(None, [within.plain])
+            for one in within.forms:
+                yield from _fields(one)
+
+
+_OF_A_SHEET = (
+    *("pin", "bar", "joint", "point", "guide", "slider", "slot", "yoke", "spring", "damper", "body", "drive"),
+    *("along", "to the left", "mass along", "mass to the left", "link's name", "direction", "speed"),
+    *("circuit", "branch", "order"),
+)
+"""Words of parts, of rows, and of defects."""
 
 
 _KEY = re.compile("Space|Enter|Tab|Shift|Ctrl|Alt|Esc|PgUp|PgDn|Del")
