@@ -21,6 +21,7 @@ from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRati
 from linkanim.synthesis.burmester import CentreCurve, Poses, burmester_points, circle_points
 from linkanim.synthesis.linkages import Complex, Real
 from linkanim.units import four_digits
+from linkanim.words import name_said, said, to_say
 
 Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross", "frame", "arc", "word"]
 Tone = Literal["ink", "dim", "first", "second", "third", "fourth"]
@@ -135,7 +136,7 @@ def _guided(scene: Scene, purpose: PosesPurpose) -> Iterator[ConstructionStep]:
         Mark("frame", _at(origin, origin + reach * cmath.exp(1j * angle)), str(n), spreads=True)
         for n, (origin, angle) in enumerate(zip(poses.origins, poses.angles, strict=True), start=1)
     ]
-    yield _step(f"The body in its {poses.count} poses.", *frames)
+    yield _step(said("The body in its {count} poses.", count=poses.count), *frames)
     bodies = [
         Mark("plate", _at(places[0][n], places[1][n], poses.origins[n]), tone="dim")
         for n in range(poses.count)
@@ -146,7 +147,7 @@ def _guided(scene: Scene, purpose: PosesPurpose) -> Iterator[ConstructionStep]:
         for (name, tone), each in zip(tones, places, strict=True)
         for n, place in enumerate(each, start=1)
     ]
-    yield _step("Two of its joints, A and B, in each pose.", *bodies, *joints)
+    yield _step(said("Two of its joints, A and B, in each pose."), *bodies, *joints)
     if poses.count <= 3:
         yield from _midperpendiculars(body, places)
         yield from _pole_triangle(poses)
@@ -168,7 +169,9 @@ def _midperpendiculars(body: GuidedBody, places: list[Complex]) -> Iterator[Cons
             assert body.line is not None
             reach = body.poses.size * body.line
             line = Mark("line", _at(each[0] - reach, each[-1] + reach), tone=tone)
-            yield _step(f"The places of {name} lie on one line: there it slides.", *chords, line)
+            yield _step(
+                said("The places of {joint} lie on one line: there it slides.", joint=name), *chords, line
+            )
             continue
         lines = []
         for one, other in pairwise(each):
@@ -176,9 +179,18 @@ def _midperpendiculars(body: GuidedBody, places: list[Complex]) -> Iterator[Cons
             lines.append(Mark("dashed", _at(middle, held + 0.12 * (held - middle)), tone=tone))
         one = len(lines) == 1
         words = (
-            f"{pivot} is a point of the midperpendicular of {name}₁{name}₂."
+            said(
+                "{pivot} is a point of the midperpendicular of {chord}.",
+                pivot=pivot,
+                chord=f"{name}₁{name}₂",
+            )
             if one
-            else f"The midperpendiculars of {name}₁{name}₂ and {name}₂{name}₃ meet in {pivot}."
+            else said(
+                "The midperpendiculars of {one} and {other} meet in {pivot}.",
+                one=f"{name}₁{name}₂",
+                other=f"{name}₂{name}₃",
+                pivot=pivot,
+            )
         )
         yield _step(words.replace("O2", "O₂").replace("O4", "O₄"), *chords, *lines)
 
@@ -192,9 +204,11 @@ def _pole_triangle(poses: Poses) -> Iterator[ConstructionStep]:
     if len(near) == 3:
         corners = list(near.values())
         marks.append(Mark("dashed", _at(*corners, corners[0]), tone="third"))
-        yield _step("The poles of the poses, the pole triangle: its angles are half of their turns.", *marks)
+        yield _step(
+            said("The poles of the poses, the pole triangle: its angles are half of their turns."), *marks
+        )
     else:
-        yield _step("The pole: a turn about it takes one pose to the other.", *marks)
+        yield _step(said("The pole: a turn about it takes one pose to the other."), *marks)
 
 
 def _pole(poses: Poses, pair: tuple[int, int], pole: complex) -> Mark:
@@ -219,10 +233,10 @@ def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
     walks = [curve.at(circuit, phases) for circuit in range(len(curve.circuits))]
     centres = [Mark("line", walk, tone="third") for walk in walks]
     circles = [Mark("line", circle_points(four, walk), tone="fourth") for walk in walks]
-    which = "" if poses.count == 4 else " of poses 1 to 4"
-    yield _step(
-        f"The curves of the centre points and, in pose 1, of the circle points{which}.", *centres, *circles
-    )
+    words = said("The curves of the centre points and, in pose 1, of the circle points.")
+    if poses.count != 4:
+        words = said("The curves of the centre points and, in pose 1, of the circle points of poses 1 to 4.")
+    yield _step(words, *centres, *circles)
     near = {pair: pole for pair, pole in four.poles.items() if abs(pole - poses.centre) <= _FAR * poses.size}
     marks = [_pole(poses, pair, pole) for pair, pole in near.items()]
     ring = [(0, 1), (1, 2), (2, 3), (0, 3)]
@@ -230,7 +244,8 @@ def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
         corners = [near[pair] for pair in (*ring, ring[0])]
         marks.append(Mark("dashed", _at(*corners), tone="third"))
     yield _step(
-        "The poles, among them the quadrilateral of two pairs of opposite ones, lie on the former.", *marks
+        said("The poles, among them the quadrilateral of two pairs of opposite ones, lie on the former."),
+        *marks,
     )
     if poses.count > 4:
         yield from _of_last(poses, phases)
@@ -241,7 +256,9 @@ def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
             for shape, places in shapes
             for place in places
         ]
-        words = f"Of all five poses {len(bars.centre)} of Burmester's four pairs of points are real."
+        words = said(
+            "Of all five poses {count} of Burmester's four pairs of points are real.", count=len(bars.centre)
+        )
         yield _step(words, *marks)
 
 
@@ -256,8 +273,10 @@ def _of_last(poses: Poses, phases: Real) -> Iterator[ConstructionStep]:
         curve = CentreCurve(others)
         walks = [curve.at(circuit, phases) for circuit in range(len(curve.circuits))]
         yield _step(
-            "That of the centre points of poses 1, 2, 3 and 5 crosses it at P₁₂, P₁₃, P₂₃ and, of all five "
-            "poses, at Burmester's points.",
+            said(
+                "That of the centre points of poses 1, 2, 3 and 5 crosses it at P₁₂, P₁₃, P₂₃ and, of all "
+                "five poses, at Burmester's points."
+            ),
             *(Mark("line", walk, tone="dim") for walk in walks),
         )
 
@@ -269,7 +288,7 @@ def _linkage(body: GuidedBody) -> ConstructionStep:
     for name, joint, held in zip(("O₂", "O₄"), (first, second), body.held, strict=True):
         if held is not None:
             marks += [Mark("bar", _at(held, joint)), Mark("dot", _at(held), name, spreads=True)]
-    return _step("The linkage in pose 1.", *marks)
+    return _step(said("The linkage in pose 1."), *marks)
 
 
 def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionStep]:
@@ -284,7 +303,10 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
         for x, angle in zip(purpose.x, purpose.input, strict=True)
     ]
     yield _step(
-        f"x is read on the input's angle, on an even scale: {len(purpose.x)} precision points.",
+        said(
+            "x is read on the input's angle, on an even scale: {count} precision points.",
+            count=len(purpose.x),
+        ),
         Mark("arc", _arc(start, purpose.input[0], purpose.input[-1], _INNER * crank), tone="first"),
         *ticks,
         Mark("dot", _at(start), "O₂", spreads=True),
@@ -296,12 +318,16 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
             Mark("ring", _at(end), f"y = {y:.4g}", "second", spreads=True)
             for end, y in zip(ends, purpose.y, strict=True)
         ]
-        yield _step("y is read on the slider's way, likewise.", Mark("line", ends, tone="second"), *places)
+        yield _step(
+            said("y is read on the slider's way, likewise."),
+            Mark(said("line"), ends, tone=said("second")),
+            *places,
+        )
     else:
         reach = _OUTER * abs(ends[0] - other)
         angles = np.unwrap(np.angle(ends - other)).tolist()
         yield _step(
-            "y is read on the output's angle, likewise.",
+            said("y is read on the output's angle, likewise."),
             Mark("arc", _arc(other, angles[0], angles[-1], reach), tone="second"),
             *(
                 _tick(other, angle, reach, f"y = {y:.4g}", "second")
@@ -316,7 +342,9 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
         *(Mark("thin", polyline, tone="dim", spreads=True) for polyline in rest),
         Mark("bar", first, spreads=True),
     ]
-    yield _step("The linkage in its precision points: there what it does is y, to the last digit.", *marks)
+    yield _step(
+        said("The linkage in its precision points: there what it does is y, to the last digit."), *marks
+    )
     yield from _freudenstein(scene, purpose, None if other is None else abs(other - start))
 
 
@@ -333,11 +361,17 @@ def _freudenstein(scene: Scene, purpose: FunctionPurpose, r1: float | None) -> I
         form, right = "K₁ cos ψ − K₂ cos θ + K₃ = cos(θ − ψ)", np.cos(theta - output)
         rows = np.column_stack([np.cos(output), -np.cos(theta), np.ones_like(theta)])
     k1, k2, k3 = np.linalg.lstsq(rows, right, rcond=None)[0].tolist()
-    said = "; ".join(
+    equations = "; ".join(
         f"{four_digits(a)} K₁ {_joined(b)} K₂ + K₃ = {four_digits(c)}"
         for (a, b, _), c in zip(rows, right, strict=True)
     )
-    yield _step(f"Freudenstein's equation, {form}, holds in each point: {said}.")
+    yield _step(
+        said(
+            "Freudenstein's equation, {equation}, holds in each point: {points}.",
+            equation=form,
+            points=equations,
+        )
+    )
     bars = {
         frozenset((joint.name, end)): value for joint in scene.linkage.joints for end, value in joint.bars
     }
@@ -345,13 +379,16 @@ def _freudenstein(scene: Scene, purpose: FunctionPurpose, r1: float | None) -> I
     given = f"K₁ = {four_digits(k1)}, K₂ = {four_digits(k2)}, K₃ = {four_digits(k3)}"
     if r1 is None:
         offset = f"e = K₂/K₁ = {four_digits(k2 / k1)}"
-        yield _step(f"So {given}; r₂ = K₁/2 = {r2:.4g}, {offset}, r₃ = √(K₃ + r₂² + e²) = {r3:.4g}.")
+        found = f"{given}; r₂ = K₁/2 = {r2:.4g}, {offset}, r₃ = √(K₃ + r₂² + e²) = {r3:.4g}"
+        yield _step(said("So {equations}.", equations=found))
     else:
         r4 = bars[frozenset(("O4", "B"))]
+        ground = f"r₁ = {four_digits(r1)}"
+        found = (
+            f"r₂ = r₁/K₁ = {r2:.4g}, r₄ = r₁/K₂ = {r4:.4g}, r₃ = √(r₁² + r₂² + r₄² − 2 r₂ r₄ K₃) = {r3:.4g}"
+        )
         yield _step(
-            f"So {given}; with r₁ = {four_digits(r1)} r₂ = r₁/K₁ = {r2:.4g}, "
-            f"r₄ = r₁/K₂ = {r4:.4g}, "
-            f"r₃ = √(r₁² + r₂² + r₄² − 2 r₂ r₄ K₃) = {r3:.4g}."
+            said("So {constants}; with {ground} {lengths}.", constants=given, ground=ground, lengths=found)
         )
 
 
@@ -461,7 +498,7 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
     start, (near, far) = centres.crank_pivot, centres.ends
     o2, a, b, unit = parts.pivot.translate(_SUBSCRIPTS), parts.pin, parts.end, scene.length_unit
     crank, coupler = abs(centres.pins[0] - start), abs(far - centres.pins[1])
-    word = "rod" if centres.pivot is None else "coupler"
+    word = name_said("rod" if centres.pivot is None else "coupler")
     marks = [
         Mark("dot", _at(start), o2, spreads=True),
         Mark("thin", _circled(start, crank), tone="first", spreads=True),
@@ -469,13 +506,17 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
     if centres.pivot is None:
         over = 0.25 * (far - near)
         where, marks = (
-            "its line of travel",
+            said("its line of travel"),
             [*marks, Mark("line", _at(near - over, far + over), tone="second")],
         )
-        words = f"Given are the crank's circle about {o2} and the line of travel of {b}."
+        words = said(
+            "Given are the crank's circle about {pivot} and the line of travel of {joint}.",
+            pivot=o2,
+            joint=b,
+        )
     else:
         o4 = (parts.held or "").translate(_SUBSCRIPTS)
-        where, arm = f"the circle about {o4}", abs(far - centres.pivot)
+        where, arm = said("the circle about {pivot}", pivot=o4), abs(far - centres.pivot)
         begin, swing = (
             cmath.phase(near - centres.pivot),
             cmath.phase((far - centres.pivot) / (near - centres.pivot)),
@@ -485,41 +526,77 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
             Mark("dot", _at(centres.pivot), o4, spreads=True),
             Mark("arc", arc, tone="second", spreads=True),
         ]
-        words = f"Given are the crank's circle about {o2} and the circle of {b} about {o4}."
+        words = said(
+            "Given are the crank's circle about {pivot} and the circle of {joint} about {other}.",
+            pivot=o2,
+            joint=b,
+            other=o4,
+        )
     steps = [_step(words, *marks)]
-    stretched = ("Stretched out", f"{word} plus crank", coupler + crank, "bar")
-    less = f"{word} less crank" if coupler > crank else f"crank less {word}"
-    folded = ("Folded", less, abs(coupler - crank), "thin")
+    stretched = (
+        to_say(
+            "Stretched out, crank and {link} lie in line: {end} is on {line}, {length} from {pivot}: {sum}."
+        ),
+        said("{link} plus crank", link=word),
+        coupler + crank,
+        "bar",
+    )
+    less = said("{link} less crank", link=word) if coupler > crank else said("crank less {link}", link=word)
+    folded = (
+        to_say("Folded, crank and {link} lie in line: {end} is on {line}, {length} from {pivot}: {sum}."),
+        less,
+        abs(coupler - crank),
+        "thin",
+    )
     for end, pin, dash, (how, made, length, shape) in (
         (far, centres.pins[1], "″", stretched),
         (near, centres.pins[0], "′", folded),
     ):
         turn = cmath.phase(end - start)
         around = Mark("arc", _arc(start, turn - _SWING, turn + _SWING, abs(end - start)), tone="third")
-        said = f"{how}, crank and {word} lie in line: {b}{dash} is on {where}, {length:.4g} {unit} from {o2}"
-        steps.append(_step(f"{said}: {made}.", around, Mark("ring", _at(end), f"{b}{dash}", "second", True)))
+        words = said(
+            how,
+            link=word,
+            end=f"{b}{dash}",
+            line=where,
+            length=f"{length:.4g} {unit}",
+            pivot=o2,
+            sum=made,
+        )
+        steps.append(_step(words, around, Mark("ring", _at(end), f"{b}{dash}", "second", True)))
         bars = [Mark(cast(Shape, shape), _at(start, pin, end))]
         bars += [Mark("thin", _at(centres.pivot, end))] if centres.pivot is not None else []
         angle = math.degrees(cmath.phase(pin - start)) % 360
-        said = f"The crank pin {a}{dash} lies on {o2}{b}{dash}: there the input stands at {angle:.4g}°."
-        steps.append(_step(said, *bars, Mark("ring", _at(pin), f"{a}{dash}", "first", True)))
+        words = said(
+            "The crank pin {pin} lies on {line}: there the input stands at {angle}.",
+            pin=f"{a}{dash}",
+            line=f"{o2}{b}{dash}",
+            angle=f"{angle:.4g}°",
+        )
+        steps.append(_step(words, *bars, Mark("ring", _at(pin), f"{a}{dash}", "first", True)))
     alpha = math.degrees(centres.angle)
     if centres.pivot is None:
-        what = f"The stroke is {b}′{b}″ = {abs(far - near):.4g} {unit}"
+        what = said("The stroke is {chord}", chord=f"{b}′{b}″ = {abs(far - near):.4g} {unit}")
     else:
         swing = math.degrees(cmath.phase((far - centres.pivot) / (near - centres.pivot)))
-        what = f"The swing is {abs(swing):.4g}°"
+        what = said("The swing is {angle}", angle=f"{abs(swing):.4g}°")
     if alpha > 1e-6:
         ratio = (180 + alpha) / (180 - alpha)
         begin, turn = cmath.phase(near - start), cmath.phase((far - start) / (near - start))
         corner = Mark("arc", _arc(start, begin, begin + turn, 0.3 * abs(near - start)), "α", "first")
-        said = (
-            f"; seen from {o2} it is α = {alpha:.4g}°: the time ratio is (180° + α)/(180° − α) = {ratio:.4g}."
+        words = said(
+            "{extent}; seen from {pivot} it is {angle}: the time ratio is {ratio}.",
+            extent=what,
+            pivot=o2,
+            angle=f"α = {alpha:.4g}°",
+            ratio=f"(180° + α)/(180° − α) = {ratio:.4g}",
         )
-        steps.append(_step(what + said, corner, Mark("thin", _at(near, far), tone="fourth")))
+        steps.append(_step(words, corner, Mark("thin", _at(near, far), tone="fourth")))
     else:
-        said = f"; it lies in line with {o2}, so both ways take the same time."
-        steps.append(_step(what + said, Mark("thin", _at(near, far), tone="fourth")))
+        words = said(
+            "{extent}; it lies in line with {pivot}, so both ways take the same time.", extent=what, pivot=o2
+        )
+        steps.append(_step(words, Mark("thin", _at(near, far), tone="fourth")))
     return tuple(steps)
 
 
@@ -535,12 +612,12 @@ def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[Construction
     chord = [Mark("ring", _at(near), "B′", "second", True), Mark("ring", _at(far), "B″", "second", True)]
     if centres.pivot is None:
         chord.append(Mark("line", _at(near, far), tone="second"))
-        yield _step("The slider's stroke, between its dead centres B′ and B″.", *chord)
+        yield _step(said("The slider's stroke, between its dead centres B′ and B″."), *chord)
     else:
         arms = [Mark("thin", _at(centres.pivot, end), tone="second") for end in centres.ends]
         chord.append(Mark("thin", _at(near, far), tone="second"))
         pivot = Mark("dot", _at(centres.pivot), "O₄", spreads=True)
-        yield _step("The rocker's swing, between its dead centres B′ and B″.", *arms, *chord, pivot)
+        yield _step(said("The rocker's swing, between its dead centres B′ and B″."), *arms, *chord, pivot)
     ratio = f"{purpose.ratio:g}"
     rays = [Mark("dashed", _at(start, end), tone="first") for end in centres.ends]
     pin = Mark("dot", _at(start), "O₂", spreads=True)
@@ -557,8 +634,11 @@ def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[Construction
             "first",
         )
         yield _step(
-            f"A time ratio Q of {ratio} asks for α = 180° (Q − 1)/(Q + 1) = {alpha:.4g}°: at that angle O₂ "
-            "sees the chord.",
+            said(
+                "A time ratio Q of {ratio} asks for {angle}: at that angle O₂ sees the chord.",
+                ratio=ratio,
+                angle=f"α = 180° (Q − 1)/(Q + 1) = {alpha:.4g}°",
+            ),
             *rays,
             corner,
             pin,
@@ -571,10 +651,11 @@ def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[Construction
             spreads=True,
         )
         yield _step(
-            "All points that see it so lie on Alt's circle through B′ and B″; O₂ is chosen on it.", circle
+            said("All points that see it so lie on Alt's circle through B′ and B″; O₂ is chosen on it."),
+            circle,
         )
     else:
-        yield _step("Without a quick return O₂ lies on the chord's line.", *rays, pin)
+        yield _step(said("Without a quick return O₂ lies on the chord's line."), *rays, pin)
     joints = [
         Mark("ring", _at(place), label, "first", True)
         for place, label in zip(centres.pins, ("A′", "A″"), strict=True)
@@ -584,7 +665,7 @@ def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[Construction
         Mark("thin", _at(start, centres.pins[0], near)),
     ]
     yield _step(
-        "O₂B″ is coupler and crank, O₂B′ coupler less crank: half their difference is the crank.",
+        said("O₂B″ is coupler and crank, O₂B′ coupler less crank: half their difference is the crank."),
         *bars,
         *joints,
     )
