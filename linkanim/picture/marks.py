@@ -10,13 +10,15 @@ from functools import lru_cache
 
 import numpy as np
 
+from linkanim.frozen import NamedTuple
+from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.dimensions import dimension_line
 from linkanim.picture.figure import DrawSetting
-from linkanim.picture.game_panel import mood_colour
-from linkanim.picture.items import Caption, Group
+from linkanim.picture.game_panel import Mood, mood_colour
+from linkanim.picture.items import Caption, Group, Target
 from linkanim.picture.layout import Gauge
-from linkanim.picture.overlay import BandShown, DimensionLine, Lane, Spot
+from linkanim.picture.overlay import DimensionLine, ModeDrawing
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Stamp, box, disc, segments, stroke, unit
 from linkanim.picture.theme import ORANGE, Theme, mixed
@@ -86,24 +88,59 @@ def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
         yield Layer(ORANGE, [middle + disc(reach * setting.gauge.bar)], alpha)
 
 
-def spots(setting: DrawSetting, shown: Sequence[Spot], pose: Pose) -> Iterator[tuple[list[Layer], Caption]]:
-    """Yield the marks of answers' places: a ring, and beside it, off joints and others, the key on a disc."""
-    theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
-    places = [setting.view.pixel(spot.at) for spot in shown]
-    joints = [setting.view.pixel(pose.position[name]) for name in setting.figure.in_view]
-    taken = [*places, *joints]
-    for spot, at in zip(shown, places, strict=True):
-        colour = mood_colour(theme, spot.mood)
-        ink = theme.velocity if spot.mood == "" else colour
-        disc_at = _off(at, taken, layout.stage, size)
-        off = unit(disc_at - at)
-        taken.append(disc_at)
-        ring = stroke(at + disc(0.55 * size), 0.13 * size, closed=True)
-        lead = segments([at + 0.55 * size * off], [disc_at], 0.1 * size)
-        rim, inner = disc_at + disc(0.8 * size), disc_at + disc(0.68 * size)
-        layers = [Layer(ink, [*ring, *lead]), Layer(ink, [rim]), Layer(theme.panel, [inner])]
-        words = Caption(spot.key, (disc_at.real, disc_at.imag - 0.5 * size), size, ink, "centre", strong=True)
-        yield layers, words
+class Spot(NamedTuple):
+    """The place of an answer on the picture, in the unit shown, and its mark."""
+
+    key: str
+    at: Point
+    mood: Mood = ""
+
+
+class Spots(NamedTuple):
+    """The places of a game's answers on the picture, in the answers' order."""
+
+    spots: tuple[Spot, ...]
+
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Return nothing: all lies over the linkage."""
+        del setting, pose
+        yield from ()
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield their marks: a ring, and beside it, off joints and others, the key on a disc."""
+        theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
+        places = [setting.view.pixel(spot.at) for spot in self.spots]
+        joints = [setting.view.pixel(pose.position[name]) for name in setting.figure.in_view]
+        taken = [*places, *joints]
+        for n, (spot, at) in enumerate(zip(self.spots, places, strict=True)):
+            colour = mood_colour(theme, spot.mood)
+            ink = theme.velocity if spot.mood == "" else colour
+            disc_at = _off(at, taken, layout.stage, size)
+            off = unit(disc_at - at)
+            taken.append(disc_at)
+            ring = stroke(at + disc(0.55 * size), 0.13 * size, closed=True)
+            lead = segments([at + 0.55 * size * off], [disc_at], 0.1 * size)
+            rim, inner = disc_at + disc(0.8 * size), disc_at + disc(0.68 * size)
+            layers = [Layer(ink, [*ring, *lead]), Layer(ink, [rim]), Layer(theme.panel, [inner])]
+            top = disc_at.real, disc_at.imag - 0.5 * size
+            words = Caption(spot.key, top, size, ink, "centre", strong=True)
+            reach = (at, _RING * size), (disc_at, 0.8 * size)
+            targets = tuple(Target("spot", _around(middle, far), n) for middle, far in reach)
+            yield Group("spot", layers, [words], over=True, targets=targets)
+
+
+def _around(middle: complex, far: float) -> Rect:
+    """Return the square about a place."""
+    return Rect(middle.real - far, middle.imag - far, 2 * far, 2 * far)
+
+
+def without_spots(drawn: Sequence[ModeDrawing]) -> tuple[ModeDrawing, ...]:
+    """Return drawings without the answers of a game, over which something else is open."""
+    return tuple(one for one in drawn if not isinstance(one, Spots))
+
+
+_RING = 1.6
+"""How near to an answer's place counts as on it, in heights of its letter."""
 
 
 def _off(at: complex, taken: Sequence[complex], stage: Rect, size: float) -> complex:
@@ -143,41 +180,72 @@ _DEEPEST = 0.62
 """How far the paper extends ahead of the ram at the most, in heights of the stage."""
 
 
-def band(setting: DrawSetting, shown: BandShown) -> Group:
-    """Return the bands round traces, each in its trace's colour."""
-    theme, layers = setting.theme, list[Layer]()
-    for n, pairs in enumerate(shown.edges):
-        edges = np.array([[setting.view.pixel((at.real, at.imag)) for at in pair] for pair in pairs])
-        (left, right), (further, beyond) = edges.T, np.roll(edges, -1, axis=0).T
-        loops = np.stack([left, right, beyond, further], axis=1)
-        turns = (np.conj(beyond - left) * (further - right)).imag > 0
-        loops[turns] = loops[turns, ::-1]
-        layers.append(Layer(theme.traces[n % len(theme.traces)], [*loops], _BAND))
-    return Group("band", layers)
+class TraceBands(NamedTuple):
+    """Bands round traces: of each both edges from place to place (x + yi, in the scene's unit)."""
+
+    edges: tuple[tuple[tuple[complex, complex], ...], ...]
+
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the bands, each in its trace's colour."""
+        del pose
+        theme, layers = setting.theme, list[Layer]()
+        for n, pairs in enumerate(self.edges):
+            edges = np.array([[setting.view.pixel((at.real, at.imag)) for at in pair] for pair in pairs])
+            (left, right), (further, beyond) = edges.T, np.roll(edges, -1, axis=0).T
+            loops = np.stack([left, right, beyond, further], axis=1)
+            turns = (np.conj(beyond - left) * (further - right)).imag > 0
+            loops[turns] = loops[turns, ::-1]
+            layers.append(Layer(theme.traces[n % len(theme.traces)], [*loops], _BAND))
+        yield Group("band", layers)
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Return nothing: all lies behind the linkage."""
+        del setting, pose
+        yield from ()
 
 
-def lane(setting: DrawSetting, shown: Lane) -> Group:
-    """Return the paper between the lines, the lines, and the guide for comparing the ram with them."""
-    _, view, gauge, theme = setting.known
-    back, forward = view.pixel(shown.back), view.pixel(shown.forward)
-    across, beside = 1j * unit(forward - back), max(shown.half_width, BEYOND) * (forward - back)
-    stage, ends = setting.layout.stage.inset(1.8 * gauge.line), (back - beside, forward + beside)
+class Lane(NamedTuple):
+    """Two lines across a ram's guide, from its `back` to its `forward` dead centre, in the unit shown.
 
-    def room(way: complex) -> float:
-        return min(stage.ahead(end, way) for end in ends)
+    `middle` has pairs: how far ahead, as a share of the visible paper, and where between the dead centres (0
+    to 1) the ram has to be then, within `half_width` to either side. `well` says that it is between the lines
+    now.
+    """
 
-    ahead = max((across, -across), key=room)
-    depth = min(room(ahead), _DEEPEST * stage.height)
-    way, share = np.array(shown.middle).T
-    seen = way >= -room(-ahead) / max(depth, 1.0)  # what has left the stage is gone
-    way, share = way[seen], share[seen]
-    foot: Loop = back + ahead * depth * way + (forward - back) * share
-    half = (forward - back) * shown.half_width
-    edges = foot - half, foot + half
-    ink = theme.velocity if shown.well else theme.warning
-    shade = theme.chosen if shown.well else mixed(ink, theme.background, 0.75)
-    paper = Layer(shade, [np.concatenate((edges[0], edges[1][::-1]))])
-    lines = [loop for edge in edges for loop in stroke(edge, 1.8 * gauge.line)]
-    beyond = BEYOND * (forward - back)
-    guide = segments(back - beyond, forward + beyond, gauge.line)
-    return Group("lane", [paper, Layer(theme.ground, guide), Layer(ink, lines)])
+    back: Point
+    forward: Point
+    middle: tuple[tuple[float, float], ...]
+    half_width: float
+    well: bool
+
+    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the paper between the lines, the lines, and the guide for comparing the ram with them."""
+        del pose
+        _, view, gauge, theme = setting.known
+        back, forward = view.pixel(self.back), view.pixel(self.forward)
+        across, beside = 1j * unit(forward - back), max(self.half_width, BEYOND) * (forward - back)
+        stage, ends = setting.layout.stage.inset(1.8 * gauge.line), (back - beside, forward + beside)
+
+        def room(way: complex) -> float:
+            return min(stage.ahead(end, way) for end in ends)
+
+        ahead = max((across, -across), key=room)
+        depth = min(room(ahead), _DEEPEST * stage.height)
+        way, share = np.array(self.middle).T
+        seen = way >= -room(-ahead) / max(depth, 1.0)  # what has left the stage is gone
+        way, share = way[seen], share[seen]
+        foot: Loop = back + ahead * depth * way + (forward - back) * share
+        half = (forward - back) * self.half_width
+        edges = foot - half, foot + half
+        ink = theme.velocity if self.well else theme.warning
+        shade = theme.chosen if self.well else mixed(ink, theme.background, 0.75)
+        paper = Layer(shade, [np.concatenate((edges[0], edges[1][::-1]))])
+        lines = [loop for edge in edges for loop in stroke(edge, 1.8 * gauge.line)]
+        beyond = BEYOND * (forward - back)
+        guide = segments(back - beyond, forward + beyond, gauge.line)
+        yield Group("lane", [paper, Layer(theme.ground, guide), Layer(ink, lines)])
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Return nothing: all lies behind the linkage."""
+        del setting, pose
+        yield from ()

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal, Protocol, Self, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
-from linkanim.picture.game_panel import GamePanel, Mood
+from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.lists import ListPanel
 from linkanim.picture.look import ThemeName
 from linkanim.scenes import chapter_of, titles
@@ -310,29 +310,6 @@ class DimensionLine(NamedTuple):
         return self.frame[0] != self.frame[1] and (self.begin, self.end) == (0, 1)
 
 
-class Spot(NamedTuple):
-    """The place of an answer on the picture, in the unit shown, and its mark."""
-
-    key: str
-    at: Point
-    mood: Mood = ""
-
-
-class Lane(NamedTuple):
-    """Two lines across a ram's guide, from its `back` to its `forward` dead centre, in the unit shown.
-
-    `middle` has pairs: how far ahead, as a share of the visible paper, and where between the dead centres (0
-    to 1) the ram has to be then, within `half_width` to either side. `well` says that it is between the lines
-    now.
-    """
-
-    back: Point
-    forward: Point
-    middle: tuple[tuple[float, float], ...]
-    half_width: float
-    well: bool
-
-
 class HoverText(NamedTuple):
     """The words about a thing under the mouse, `at` a place of the scene; a `joint` also has its arrows."""
 
@@ -345,31 +322,22 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
 
-class BandShown(NamedTuple):
-    """Bands round traces: of each both edges from place to place (x + yi, in the scene's unit), and words."""
-
-    edges: tuple[tuple[tuple[complex, complex], ...], ...]
-    sentence: str
-    facts: tuple[str, ...] = ()
-
-
 @frozen
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
     Modes have what they have `drawn`, perhaps `alone`, on a sheet or the bare ground, in the linkage's
     place. A `stroke` lies behind the linkage, which is `off` it by so much. `head` is said at the head.
-    `construction` is how many steps of the scene's construction are drawn; a `band` lies round traces.
-    Answers that are places have `spots` on the picture, in their order; a ram that is followed has its
-    `lane`. The joints `handles` can be dragged. With `noted` the HUD says that a limit or a change point is
-    near. `chip` answers a key, `hint` says which keys to press, `watch` what to watch for. `measured` are the
-    lines of the chosen dimension and of those beside it, `glow` is the joint under the mouse, `hover_text`
-    has words about the thing there, `instant` the phase that the mouse points at on a curve; with `grip` the
-    chart's cursor has a grip. `shutter` is how white the picture is, in eighths. The `bar` has the commands;
+    `construction` is how many steps of the scene's construction are drawn. The joints `handles` can be
+    dragged. With `noted` the HUD says that a limit or a change point is near. `chip` answers a key,
+    `hint` says which keys to press, `watch` what to watch for. `measured` are the lines of the chosen
+    dimension and of those beside it, `glow` is the joint under the mouse, `hover_text` has words about
+    the thing there, `instant` the phase that the mouse points at on a curve; with `grip` the chart's
+    cursor has a grip. `shutter` is how white the picture is, in eighths. The `bar` has the commands;
     `tools` are those of a sheet, beside a list of dimensions. In a `swing` the linkage is between two
-    closures. The share `shut` of an open list is still beyond the window's edge; the mouse is over its row
-    `pointed`. A `photo` lies behind a sheet. For those who describe the rest: `hover` is what the mouse is
-    over, and what is `recorded` has no mouse.
+    closures. The share `shut` of an open list is still beyond the window's edge; the mouse is over its
+    row `pointed`. A `photo` lies behind a sheet. For those who describe the rest: `hover` is what the
+    mouse is over, and what is `recorded` has no mouse.
     """
 
     paused: bool = False
@@ -387,11 +355,8 @@ class Overlay:
     row: AnswerRow | None = None
     photo: Photo | None = None
     construction: int = 0
-    band: BandShown | None = None
     slider: SliderShown | None = None
     swing: SwingShown | None = None
-    spots: tuple[Spot, ...] = ()
-    lane: Lane | None = None
     handles: tuple[str, ...] = ()
     chip: Fading | None = None
     hint: Fading | None = None

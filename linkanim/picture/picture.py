@@ -22,8 +22,6 @@ from linkanim.picture.look import Look
 from linkanim.picture.names import Names
 from linkanim.picture.overlay import (
     NOTHING_OVER,
-    BandShown,
-    Lane,
     Overlay,
     SliderShown,
     SwingShown,
@@ -167,15 +165,11 @@ class Picture:
         if self.sheet and overlay.stroke is None:
             yield self._paper(overlay)
         yield from self._behind_at(pose.input_speed, overlay.stroke)
-        if overlay.lane:
-            yield self._lane(overlay.lane)
-        if overlay.band:
-            yield from self._within([self._band(overlay.band)])
+        for mode in overlay.drawn:
+            yield from self._within(mode.behind(self.drawing.setting, pose))
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
-        for mode in overlay.drawn:
-            yield from self._within(mode.behind(self.drawing.setting, pose))
         if self._moves_behind:
             yield from self._standing
         if overlay.swing:
@@ -195,11 +189,7 @@ class Picture:
             drawn = (polygon.standing(pose.phase) if stands else polygon).group(pose)
             yield drawn.shifted(*self._aside) if any(self._aside) else drawn
         yield from self._on_chart(pose, grasped=overlay.grip)
-        if overlay.band:
-            from linkanim.picture.build_sheet import worded
-
-            yield worded(self.drawing.setting, overlay.band.sentence, overlay.band.facts)
-        elif not overlay.construction:  # the words of a construction stand in this place
+        if not (overlay.construction or overlay.head):  # their words stand in this place
             yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
 
@@ -258,16 +248,6 @@ class Picture:
         ):
             return mark
         return mark._replace(label="")
-
-    def _band(self, shown: BandShown) -> Group:
-        from linkanim.picture.marks import band
-
-        return band(self.drawing.setting, shown)
-
-    def _lane(self, shown: Lane) -> Group:
-        from linkanim.picture.marks import lane
-
-        return lane(self.drawing.setting, shown)
 
     @property
     def edge(self) -> tuple[float, float]:
@@ -420,7 +400,7 @@ class Picture:
         """Yield the marks for the hand: on the chosen bar, and on the joint to be dragged."""
         if overlay == NOTHING_OVER:
             return
-        from linkanim.picture.marks import glow, measure, spots
+        from linkanim.picture.marks import glow, measure
 
         yield from self._of_modes(pose, overlay)
         if overlay.construction:
@@ -430,8 +410,6 @@ class Picture:
             span = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * span for place in (shown.begin, shown.end))
             yield from measure(self.drawing.setting, begin, end, shown)
-        for layers, words in spots(self.drawing.setting, overlay.spots, pose):
-            yield Group("spot", layers, [words], over=True)
         if overlay.glow:  # the joint and the length that it changes do not overlap: they are filled together
             light = list(glow(self.drawing.setting, pose, overlay.glow))
             yield Group("glow", light, over=not overlay.measured)

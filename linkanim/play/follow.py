@@ -24,8 +24,8 @@ from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.measures import output_slider
 from linkanim.picture.game_panel import Choice, GamePanel, ScoreBar
 from linkanim.picture.look import Look
-from linkanim.picture.marks import BEYOND
-from linkanim.picture.overlay import Lane, Overlay
+from linkanim.picture.marks import BEYOND, Lane
+from linkanim.picture.overlay import Overlay
 from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
@@ -333,7 +333,7 @@ class FollowRun(Game):
             large=counts,
             chosen=None if runs else self.level - 1,
         )
-        return replace(over, listed=panel, lane=self._lane(state))
+        return replace(over, listed=panel, drawn=(self._lane(state),))
 
     @property
     def _verdict(self) -> str:

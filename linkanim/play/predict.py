@@ -12,7 +12,8 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.game_panel import Choice, GamePanel, Mood
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay, Spot
+from linkanim.picture.marks import Spot, Spots
+from linkanim.picture.overlay import Overlay
 from linkanim.play.games import ALL, LEVELS, GameWords, begun, members, titled
 from linkanim.play.kinds import of_level
 from linkanim.play.question import QuestionId, QuizQuestion
@@ -277,7 +278,7 @@ class Predict(Game):
             panel = self._verdict(panel, question)
         still = waits or state.phase == question.phase
         spots = tuple(Spot(f"{n}", one.place, mood) for n, (one, mood) in answers if one.place and still)
-        return replace(over, listed=panel, spots=spots)
+        return replace(over, listed=panel, drawn=(Spots(spots),) if spots else ())
 
     def _mood(self, n: int) -> Mood:
         assert self.question

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import BandShown, Overlay
+from linkanim.picture.marks import TraceBands
+from linkanim.picture.overlay import Head, Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, MOVING_BAR, BarEntry, KeyRow, ModeKeys, both
@@ -123,7 +124,7 @@ class ToleranceBand(Mode):
         facts = said_as("list of clauses", "; ").join([most, *others])
         length = f"{significant(by, 3)} {scene.length_unit}"
         sentence = said("each length ± {length}: {effect}", length=length, effect=first)
-        return replace(over, band=BandShown(edges, sentence, (facts,)))
+        return replace(over, drawn=(*over.drawn, TraceBands(edges)), head=Head(sentence, (facts,)))
 
 
 def _in_words(scene: Scene, off: Off, times: float) -> str:

@@ -10,6 +10,7 @@ from functools import cached_property, lru_cache
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.game_panel import GamePanel
+from linkanim.picture.marks import Spots
 from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, filtered
 from linkanim.player.action import Action
 from linkanim.player.clock import FASTEST, SLOWEST
@@ -244,7 +245,8 @@ def _of_game(state: State, game: Game, usual: Mapping[Action, ListRow]) -> Itera
     choices = shown.listed.choices if isinstance(shown.listed, GamePanel) else ()
     for n, choice in enumerate(choices):
         yield ListRow(choice.text or said("answer {number}", number=n + 1), choice.key, Action("option", n))
-    for n, spot in enumerate(shown.spots):
+    spots = (spot for one in shown.drawn if isinstance(one, Spots) for spot in one.spots)
+    for n, spot in enumerate(spots):
         yield ListRow(said("the place {key} on the picture", key=spot.key), spot.key, Action("option", n))
     for action in (*dict.fromkeys(bind.action for bind in state.keys.binds), Action("back")):
         if action.name != "option" and game.carried(state, action) is not state:

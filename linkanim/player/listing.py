@@ -13,6 +13,7 @@ from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity
 from linkanim.picture.lists import Quantities
+from linkanim.picture.marks import without_spots
 from linkanim.picture.overlay import Overlay, filtered
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.player import rules
@@ -201,9 +202,8 @@ class Listing(Mode):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the list, in the place of any other."""
-        return replace(
-            over, listed=self._rows(state), tools=over.tools if state.building else None, spots=(), handles=()
-        )
+        tools, drawn = over.tools if state.building else None, without_spots(over.drawn)
+        return replace(over, listed=self._rows(state), tools=tools, drawn=drawn, handles=())
 
     def _rows(self, state: State) -> Quantities:
         scene = state.displayed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, hypot, log10
+from math import ceil, log10
 
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step
@@ -90,11 +90,10 @@ class Sight:
 
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
-        reach = 1.6 * self.last.layout.text_size
-        away = {n: hypot(*self.away(spot.at, x, y)) for n, spot in enumerate(self.over.spots)}
-        near = min(away, key=lambda n: away[n], default=None)
-        if near is not None and away[near] <= reach:
-            return near
+        spots = (one for one in self.targets("spot") if one.place.holds(x, y))
+        near = min(spots, key=lambda one: abs(one.place.middle - complex(x, y)), default=None)
+        if near:
+            return int(near.value)
         row = self.row_at(x, y)
         return None if row is None or row < 0 else row
 

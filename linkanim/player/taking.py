@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.lists import EditRow, Panel
+from linkanim.picture.marks import without_spots
 from linkanim.picture.overlay import Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
@@ -306,7 +307,8 @@ class TakeDialog(Mode):
         panel = Panel(
             shown, to_say("Record and save"), facts, error=self.refusal or None, hint=_HINT, counted=False
         )
-        return replace(over, listed=panel, tools=over.tools if state.building else None, spots=(), handles=())
+        tools, drawn = over.tools if state.building else None, without_spots(over.drawn)
+        return replace(over, listed=panel, tools=tools, drawn=drawn, handles=())
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""

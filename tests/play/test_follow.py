@@ -17,7 +17,7 @@ from playing import SIZE, Player
 from shown_lists import game_in
 
 from linkanim.errors import BadInput
-from linkanim.picture.marks import lane
+from linkanim.picture.marks import Lane
 from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.follow import (
@@ -196,9 +196,8 @@ def test_the_track_is_wholly_in_sight(name: str, size: tuple[int, int]) -> None:
     picture = framing.fitting(state, size)
     stage = picture.layout.stage
     for paper in range(0, 1_000 * LENGTH, 450_000):
-        shown = replace(game(state), paper=paper).shown(state, Overlay()).lane
-        assert shown
-        drawn = lane(picture.drawing.setting, shown)
+        (shown,) = replace(game(state), paper=paper).shown(state, Overlay()).drawn
+        (drawn,) = shown.behind(picture.drawing.setting, state.scene.pose(state.phase))
         points = np.concatenate([np.ravel(loop) for layer in drawn.layers for loop in layer.loops])
         assert stage.x <= points.real.min()
         assert points.real.max() <= stage.right
@@ -289,8 +288,8 @@ def test_another_track_or_level_is_chosen_before_it_starts(player: Player) -> No
 
 def test_the_lane_is_drawn_where_the_ram_is() -> None:
     *_, (state, _) = followed(on("follow scene=press"), 60)
-    lane = game(state).shown(state, Overlay()).lane
-    assert lane
+    (lane,) = game(state).shown(state, Overlay()).drawn
+    assert isinstance(lane, Lane)
     ram = state.scene.pose(state.phase, 0).position["C"]
     back, forward = (complex(*place) for place in (lane.back, lane.forward))
     share = ((complex(*ram) - back) / (forward - back)).real

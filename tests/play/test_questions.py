@@ -26,7 +26,6 @@ from linkanim.cli import main
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.quantities import phrase
 from linkanim.picture.frame_words import lines_of
-from linkanim.picture.marks import spots
 from linkanim.play.games import LEVELS
 from linkanim.play.kinds import KINDS
 from linkanim.play.question import Puzzle, QuestionId, angle, between
@@ -280,7 +279,8 @@ def test_the_key_of_a_place_lies_on_no_joint() -> None:
         figured = question_figure(question)
         setting, pose = figured.picture.drawing.setting, load(name).pose(question.phase)
         joints = [setting.view.pixel(pose.position[joint]) for joint in setting.figure.in_view]
-        for _, words in spots(setting, figured.overlay.spots, pose):
+        (spots,) = figured.overlay.drawn
+        for words in (line for group in spots.groups(setting, pose) for line in group.captions):
             middle = complex(words.at[0], words.at[1] + 0.5 * words.size)
             assert min(abs(middle - joint) for joint in joints) > 0.9 * words.size
 

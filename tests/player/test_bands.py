@@ -12,6 +12,7 @@ from playing import CTRL, SHIFT, NoSearch, Player, menu_in
 
 import linkanim
 from linkanim.mechanics.measures import as_complex
+from linkanim.picture.marks import TraceBands
 from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.bands import ToleranceBand
@@ -52,10 +53,10 @@ def opened(player: Player, way: str) -> None:
 def test_the_band_is_opened_by_hand_and_closed_by_esc(player: Player, way: str) -> None:
     before = player.settle()
     opened(player, way)
-    band = overlay(player.state).band
-    assert band
-    assert "each length ± 0.2 mm: P up to" in band.sentence
-    assert "chiefly by rocker" in band.facts[0]
+    head = overlay(player.state).head
+    assert head
+    assert "each length ± 0.2 mm: P up to" in head.sentence
+    assert "chiefly by rocker" in head.facts[0]
     assert player.settle() != before
     player.press(pygame.K_ESCAPE)
     assert player.state.of(ToleranceBand) is None
@@ -73,8 +74,8 @@ def test_a_band_is_as_wide_as_the_tolerance_says(player: Player) -> None:
     ):
         if key:
             player.press(key)
-        band = overlay(player.state).band
-        assert band
+        (band,) = overlay(player.state).drawn
+        assert isinstance(band, TraceBands)
         found = linkanim.tolerance("crank-rocker", by, samples=0).quantities[0]
         edges = np.array(band.edges[0])
         motion = load("crank-rocker").cycle(len(edges), derivatives=1)
@@ -84,8 +85,10 @@ def test_a_band_is_as_wide_as_the_tolerance_says(player: Player) -> None:
             away = edges[:, side] - place
             assert np.abs(away)[::4] == pytest.approx(found.bound, rel=1e-6)
             assert (np.conj(rate) * away).real == pytest.approx(0, abs=1e-6 * np.abs(rate).max())
-        assert f"± {by:g} mm" in band.sentence
-        assert f"{found.worst:.3g} mm" in band.sentence
+        head = overlay(player.state).head
+        assert head
+        assert f"± {by:g} mm" in head.sentence
+        assert f"{found.worst:.3g} mm" in head.sentence
 
 
 def test_the_band_goes_with_the_lengths_it_was_asked_for(player: Player) -> None:
