@@ -320,7 +320,7 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
         ]
         yield _step(
             said("y is read on the slider's way, likewise."),
-            Mark(said("line"), ends, tone=said("second")),
+            Mark("line", ends, tone="second"),
             *places,
         )
     else:
