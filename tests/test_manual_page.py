@@ -40,6 +40,22 @@ def test_every_link_leads_to_a_section_and_every_anchor_is_one() -> None:
     assert set(re.findall(r'(?:href|src)="(?!#|data:)([^"]*)"', PAGE)) == set()
 
 
+CODE_IN_LINKS = {
+    "alone": ("[`solve`](commands.md)", '<a href="#commands"><code>solve</code></a>'),
+    "after code": (
+        "`a` [the `b` of *it*](#c)",
+        '<code>a</code> <a href="#here--c">the <code>b</code> of <em>it</em></a>',
+    ),
+    "to another place": ("`a` and [`b`](https://c.de)", "<code>a</code> and <code>b</code>"),
+    "escaped": (r"`a` [\*b\* < c](d.md)", '<code>a</code> <a href="#d">*b* &lt; c</a>'),
+}
+
+
+@pytest.mark.parametrize(("markup", "html"), CODE_IN_LINKS.values(), ids=CODE_IN_LINKS)
+def test_code_may_stand_in_the_words_of_a_link(markup: str, html: str) -> None:
+    assert manual._inline(markup, "here") == html
+
+
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
 def test_every_file_that_a_page_names_is_there(path: Path) -> None:
     names = re.findall(r"\]\((?!http)([^)#]+)", path.read_text(encoding="utf-8"))

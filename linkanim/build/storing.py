@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from linkanim.build.building import Building
+from linkanim.build.building import Building, as_drawn
 from linkanim.build.dimensions import rows_of
 from linkanim.build.draft import JOINT, OWN, Draft, Photo, named_in
 from linkanim.build.gestures import under
@@ -48,9 +48,9 @@ def restored(tables: Mapping[str, Any], where: str = "draft") -> Building:
     try:
         building = Building(within_bodies(_draft(tables)))
         _ask(building)
+        return as_drawn(building)
     except Exception as error:  # a malformed table may raise anything
         raise section.wrong(f"is no draft of linkanim: {type(error).__name__}") from None
-    return building
 
 
 def _ask(building: Building) -> None:

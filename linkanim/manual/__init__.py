@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import textwrap
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from html import escape, unescape
 from pathlib import Path
@@ -203,7 +203,7 @@ def _inline(text: str, chapter: str) -> str:
 
     text = _CODE.sub(lambda match: keep(f"<code>{escape(match[2])}</code>"), text)
     text = re.sub(r"\\([^A-Za-z0-9\s])", lambda match: keep(escape(match[1])), text)
-    text = _LINK.sub(lambda match: keep(_linked(match, chapter)), text)
+    text = _LINK.sub(lambda match: _linked(match, chapter, keep), text)
     text = escape(text, quote=False)
     text = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", text)
     text = re.sub(r"\*(.+?)\*", r"<em>\1</em>", text)
@@ -212,17 +212,20 @@ def _inline(text: str, chapter: str) -> str:
     return text
 
 
-def _linked(match: re.Match[str], chapter: str) -> str:
-    """Return a picture embedded in the page, or a link to another section; for other links the words."""
+def _linked(match: re.Match[str], chapter: str, keep: Callable[[str], str]) -> str:
+    """Return a picture embedded in the page, or a link to another section; for other links the words.
+
+    What is HTML already is kept; words are markup still.
+    """
     picture, words, target = match.groups()
     if picture:
         data = b64encode((FOLDER / target).read_bytes()).decode()
-        return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">'
+        return keep(f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">')
     file, _, place = target.partition("#")
     if file and not re.fullmatch(r"[\w-]+\.md", file):
-        return _inline(words, chapter)
+        return words
     name = file.removesuffix(".md") or chapter
-    return f'<a href="#{f"{name}--{place}" if place else name}">{_inline(words, chapter)}</a>'
+    return keep(f'<a href="#{f"{name}--{place}" if place else name}">') + words + keep("</a>")
 
 
 def _words(text: str) -> str:

@@ -19,6 +19,7 @@ from linkanim.build.scene_form import made
 from linkanim.build.storing import restored, stored
 from linkanim.errors import BadInput
 from linkanim.player.tape_file import read, write
+from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse, text
@@ -160,6 +161,19 @@ def test_it_is_built_on_a_tape_and_kept_as_a_draft(case: Case, tmp_path: Path) -
     kept = restored(json.loads(json.dumps(stored(building.draft))))
     assert kept.made.scene
     assert kept.made.scene.linkage.joints[:3] == scene.linkage.joints[:3]
+
+
+# Its links are then solved together from the pose in which it was left.
+@pytest.mark.parametrize(
+    "name", ["crank-rocker", "double-rocker", "stephenson-2", "double-butterfly", "plotter"]
+)
+def test_a_draft_that_was_left_with_its_crank_turned_is_there_again(name: str) -> None:
+    left = posed(building_of(load(name)), 1.3).draft
+    again = restored(json.loads(json.dumps(stored(left))))
+    assert again.made.scene
+    places = again.made.scene.pose(again.draft.phase, 0).position
+    for joint, place in left.places.items():
+        assert dist(places[joint], place) < 1e-9, joint
 
 
 def test_a_motor_goes_between_any_two_links_that_meet() -> None:
