@@ -28,6 +28,7 @@ from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.share.page import Shared, document
 from linkanim.units import significant, typeset
+from linkanim.words import said
 
 _FIGURE, _CHART, _FRAME = (560, 360), (640, 260), (720, 560)
 _ENDS = 5
@@ -42,7 +43,7 @@ def scene_html(scene: Scene) -> str:
     """
     svg = b64encode(Figured(scene, _FIGURE, Look(names=1, hud=False)).document().encode()).decode()
     size, source = f"width='{_FIGURE[0]}' height='{_FIGURE[1]}'", f"data:image/svg+xml;base64,{svg}"
-    figure = f"<img alt='{escape(scene.title)}' {size} src='{source}'/>"
+    figure = f"<img alt='{escape(said(scene.title))}' {size} src='{source}'/>"
     return _side_by_side(f"<div>{_moving(scene)}{figure}</div>", scene._repr_html_())
 
 
@@ -53,7 +54,7 @@ def _moving(scene: Scene) -> str:
     except BadInput:
         return ""
     style = f"width:{_FRAME[0]}px;height:{_FRAME[1]}px;max-width:100%;border:0"
-    frame = f"class='linkanim' title='{escape(scene.title)}' sandbox='allow-scripts' style='{style}'"
+    frame = f"class='linkanim' title='{escape(said(scene.title))}' sandbox='allow-scripts' style='{style}'"
     hidden = "<style>iframe.linkanim + img { display: none; }</style>"
     return f"{hidden}<iframe {frame} srcdoc='{escape(page)}'></iframe>"
 
@@ -98,7 +99,8 @@ def _table(motion: Motion) -> str:
         motion.mechanism.linkage.drive.coordinate,
         list(_tabulated(motion)),
     )
-    titles = [f"input {coordinate.name} ({coordinate.shown_unit(unit)})", "phase (°)"]
+    name = said("input {coordinate}", coordinate=said(coordinate.name))
+    titles = [f"{name} ({coordinate.shown_unit(unit)})", said("phase (°)")]
     titles += [one.headed(unit) for one in shown]
     inputs = coordinate.shown(motion.coordinate), np.degrees(motion.phase)
     columns = (np.ravel(column) for column in (*inputs, *(one.shown(motion) for one in shown)))
@@ -107,7 +109,8 @@ def _table(motion: Motion) -> str:
     cut = range(_ENDS, len(rows) - _ENDS)
     body = [_row(row) for n, row in enumerate(rows) if n not in cut]
     if cut:
-        body.insert(_ENDS, f"<tr><td colspan='{len(titles)}'>… {len(cut):,} more rows …</td></tr>")
+        more = said("… {count} more rows …", count=f"{len(cut):,}")
+        body.insert(_ENDS, f"<tr><td colspan='{len(titles)}'>{more}</td></tr>")
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>"
 
 
@@ -137,7 +140,7 @@ def _chart(motion: Motion, quantity: Quantity) -> str:
     y_axis = around(values, most=4)
     area = plot_area(Rect(0, 0, *_CHART), y_axis, pen, foot=True)
     plot = Plot(area, around(x, most=6, unit="°", room=0.0), y_axis)
-    title, over = quantity.title(_unit(motion)), "input angle (°)" if turns else "phase φ (°)"
+    title, over = quantity.title(_unit(motion)), said("input angle (°)") if turns else said("phase φ (°)")
     items: list[Item] = [*axes(plot, pen), x_title(plot, over, pen)]
     items.append(Caption(title, (area.x, area.y - 1.35 * pen.text), pen.text, LIGHT.ink))
     items.append(curve_layer(plot, x, values, LIGHT.velocity, 1.3 * pen.line))

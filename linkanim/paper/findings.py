@@ -24,6 +24,7 @@ from linkanim.mechanics.reactions import GROUND
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded
+from linkanim.words import row_said, said, said_as, to_say
 
 # What a report says of a scene: its facts, its quantities at chosen angles, and which charts it shows.
 
@@ -72,25 +73,30 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 
     For an input that swings, half-way takes the place of the start, at which it rests.
     """
-    instants = [Instant(0.0, "start") if scene.info.full_turn else Instant(pi / 2, "half-way")]
+    full = scene.info.full_turn
+    instants = [Instant(0.0, said("start")) if full else Instant(pi / 2, said("half-way"))]
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output and (output.slider or output.name not in scene.info.turning_links):
         coordinate, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
         pace = Pace(abs(scene.linkage.drive.speed), "")
         curve = curves_of(scene, (f"{output.name}.{coordinate}",), (pace,), "phase").curves[0]
-        for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
+        for peak, words in zip(extremes(scene, curve), _EXTREMES[coordinate], strict=False):
             phase = _at_rest(scene, (rate, output.name), float(np.radians(peak.x)))
-            instants.append(
-                Instant(phase, f"{words} {coordinate} of {phrase(output, scene.info.link_names)}")
-            )
+            instants.append(Instant(phase, said(words, link=phrase(output, scene.info.link_names))))
     return tuple(_together(instants, scene.period))
+
+
+_EXTREMES = {
+    "travel": (to_say("greatest travel of {link}"), to_say("least travel of {link}")),
+    "angle": (to_say("greatest angle of {link}"), to_say("least angle of {link}")),
+}
 
 
 def _together(instants: list[Instant], period: float) -> Iterator[Instant]:
     """Yield instants; those at the phase of the first are merged with it."""
     start, *others = instants
     same = [one for one in others if abs(remainder(one.phase - start.phase, period)) < _SAME]
-    yield start._replace(words=", ".join(one.words for one in (start, *same)))
+    yield start._replace(words=said_as("list", ", ").join(one.words for one in (start, *same)))
     yield from (one for one in others if one not in same)
 
 
@@ -140,12 +146,12 @@ def place_of(scene: Scene, instant: Instant) -> str:
     symbol, angle = input_symbol(scene.linkage), scene.pose(instant.phase, 0).coordinate
     turned = angle % tau if scene.info.full_turn else angle
     place = f"{symbol} = {scene.linkage.drive.coordinate.text(turned, scene.length_unit, 0.01)}"
-    return f"{place} ({instant.words})" if instant.words else place
+    return said("{place} ({words})", place=place, words=instant.words) if instant.words else place
 
 
 def _section(quantity: Quantity) -> str:
     """Return the heading under which a quantity stands: its part, as its words name it."""
-    return quantity.words.partition(":")[0] if ":" in quantity.words else "Whole mechanism"
+    return quantity.part or said("Whole mechanism")
 
 
 def charted(values: Values) -> Iterator[str]:
@@ -202,12 +208,12 @@ _GUIDE = {"guide_force": "N", "guide_moment": "M"}
 _STRUT = {"length": "L", "direction": "θ", "rate": "v", "force": "F"}
 
 
-_LINKS = "angle θ, kinematic coefficients h and h′, angular velocity ω and acceleration α"
-_SLIDERS = "travel s, kinematic coefficients f and f′, velocity v and acceleration a"
-_POINTS = "place x, y, sizes of velocity v and acceleration a"
-_PULLS = "the force on each body: components Fx and Fy, size F"
-_GUIDES = "the force N to the left of the guide's line, the moment M about the joint"
-_STRUTS = "length L, direction θ, rate of length v and force F"
+_LINKS = to_say("angle θ, kinematic coefficients h and h′, angular velocity ω and acceleration α")
+_SLIDERS = to_say("travel s, kinematic coefficients f and f′, velocity v and acceleration a")
+_POINTS = to_say("place x, y, sizes of velocity v and acceleration a")
+_PULLS = to_say("the force on each body: components Fx and Fy, size F")
+_GUIDES = to_say("the force N to the left of the guide's line, the moment M about the joint")
+_STRUTS = to_say("length L, direction θ, rate of length v and force F")
 
 
 class Family(NamedTuple):
@@ -264,19 +270,17 @@ def _families(values: Values) -> Iterator[Family]:
     kept = moving[:_MOST_JOINTS]
     in_order = tuple((joint.name, joint.name) for joint in linkage.joints if joint.name in kept)
     struts = tuple((strut.name, strut.name) for strut in linkage.springs + linkage.dampers)
-    yield Family("Links", _LINKS, "link", turning, _symbols(linkage, turning=True))
-    yield Family("Sliders", _SLIDERS, "slider", sliding, _symbols(linkage, turning=False))
-    yield Family("Joints", _POINTS, "joint", in_order, _POINT)
-    yield Family("Centres of mass", _POINTS, "link", massive, _CENTRE)
-    yield Family("Springs and dampers", _STRUTS, "element", struts, _STRUT)
+    yield Family(said("Links"), said(_LINKS), said("link"), turning, _symbols(linkage, turning=True))
+    yield Family(said("Sliders"), said(_SLIDERS), said("slider"), sliding, _symbols(linkage, turning=False))
+    yield Family(said("Joints"), said(_POINTS), said("joint"), in_order, _POINT)
+    yield Family(said("Centres of mass"), said(_POINTS), said("link"), massive, _CENTRE)
+    yield Family(said("Springs and dampers"), said(_STRUTS), said("element"), struts, _STRUT)
     yield from _forces(scene, names)
     whole = {"transmission_angle": "μ", "mechanical_advantage": "MA", effort_token(linkage): "T"}
     symbols = {token: scene.quantities[token].symbol for token in whole if token in scene.quantities}
-    about = ", ".join(
-        scene.quantities[token].words.partition(": ")[2] or scene.quantities[token].words.lower()
-        for token in symbols
-    )
-    yield Family("The whole mechanism", about, "", (("", ""),) if symbols else (), symbols)
+    measures = (scene.quantities[token].measure for token in symbols)
+    about = said_as("list", ", ").join(measure[:1].lower() + measure[1:] for measure in measures)
+    yield Family(said("The whole mechanism"), about, "", (("", ""),) if symbols else (), symbols)
 
 
 def _forces(scene: Scene, names: Mapping[str, str]) -> Iterator[Family]:
@@ -287,11 +291,12 @@ def _forces(scene: Scene, names: Mapping[str, str]) -> Iterator[Family]:
         body, _, rest = token.partition(".")
         joint, _, kind = rest.partition(".")
         if kind == "force":
-            pulls.append((f"{joint} on {words.get(body, body)}", f"{body}.{joint}"))
+            on = said("{joint} on {link}", joint=joint, link=words.get(body, body))
+            pulls.append((on, f"{body}.{joint}"))
         elif rest == "guide_force":
-            guides.append((f"Guide on {words.get(body, body)}", body))
-    yield Family("Forces in joints", _PULLS, "joint", tuple(pulls), _PULL)
-    yield Family("Forces of guides", _GUIDES, "slider", tuple(guides), _GUIDE)
+            guides.append((said("Guide on {link}", link=words.get(body, body)), body))
+    yield Family(said("Forces in joints"), said(_PULLS), said("joint"), tuple(pulls), _PULL)
+    yield Family(said("Forces of guides"), said(_GUIDES), said("slider"), tuple(guides), _GUIDE)
 
 
 def _symbols(linkage: Linkage, *, turning: bool) -> dict[str, str]:
@@ -332,13 +337,14 @@ def _table(
         unknown |= any(isnan(value) for row in values_of.values() for value in row)
         rows = tuple((label, tuple(rounded(one, digits) for one in row)) for label, row in values_of.items())
         groups.append((place_of(values.scene, instant), rows))
-    notes = [f"∞: unbounded at {', '.join(unbounded)}."] if unbounded else []
-    notes += ["–: has no value there, or is not given."] if unknown else []
+    places = said_as("list", ", ").join(unbounded)
+    notes = [said("∞: unbounded at {places}.", places=places)] if unbounded else []
+    notes += [said("–: has no value there, or is not given.")] if unknown else []
     if len(family.parts) > 1:
         return ValueTable(family.title, family.about, family.head, columns, tuple(groups), tuple(notes))
     (title, _), *_ = family.parts
     alone = tuple((place, cells) for place, rows in groups for _, cells in rows)
-    return ValueTable(title or family.title, family.about, "at", columns, (("", alone),), tuple(notes))
+    return ValueTable(title or family.title, family.about, said("at"), columns, (("", alone),), tuple(notes))
 
 
 def _value(values: Values, part: str, column: Column, instant: Instant) -> float:
@@ -354,7 +360,6 @@ def _value(values: Values, part: str, column: Column, instant: Instant) -> float
 
 _MOST_CURVES = 6
 """On one chart."""
-_CENTRE_OF_MASS = ", centre of mass"
 _SHORT_NAME = 2
 """The most letters of a name that stands behind a noun: link 3, slider C."""
 
@@ -391,17 +396,17 @@ class _ChartChoice:
         traced = [] if self.several and turning else [*self.values.scene.trace]
         links, whole = [*turning, *sliding], self._charts(["transmission_angle"])
         places = self._all(("angle", turning), ("travel", sliding))
-        yield "Positions", chain(places, whole, self._all(("coefficient", links)))
+        yield said("Positions"), chain(places, whole, self._all(("coefficient", links)))
         rates = ("angular_{}", turning), ("travel_{}", sliding), ("{}", traced)
         velocities, accelerations = (
             [(form.format(rate), parts) for form, parts in rates] for rate in ("velocity", "acceleration")
         )
-        yield "Velocities", self._all(*velocities)
-        yield "Accelerations", self._all(("second_coefficient", links), *accelerations)
-        yield "Centres of mass", self._all(("com_velocity", massive), ("com_acceleration", massive))
+        yield said("Velocities"), self._all(*velocities)
+        yield said("Accelerations"), self._all(("second_coefficient", links), *accelerations)
+        yield said("Centres of mass"), self._all(("com_velocity", massive), ("com_acceleration", massive))
         effort = self._charts([effort_token(linkage)])
         of_struts = self._all(("length", struts), ("rate", struts), ("force", struts))
-        yield "Springs, dampers and input" if struts else "Input", [*of_struts, *effort]
+        yield said("Springs, dampers and input") if struts else said("Input"), [*of_struts, *effort]
 
     def _all(self, *planned: tuple[str, list[str]]) -> Iterator[PlannedChart]:
         for measure, parts in planned:
@@ -419,19 +424,24 @@ class _ChartChoice:
 
     def _caption(self, tokens: list[str]) -> str:
         """Return what is charted of which parts: "Angular velocity of link 3, link 4"."""
-        known = [self.values.scene.quantities[token].words for token in tokens]
-        if ":" not in known[0]:
-            return known[0]
-        parts = [words.partition(":")[0] for words in known]
-        what = dict.fromkeys(words.partition(": ")[2] for words in known)
-        first = " and ".join(what)
-        if all(part.endswith(_CENTRE_OF_MASS) for part in parts):
-            centres = "centre of mass" if len(parts) == 1 else "centres of mass"
-            first = f"{first} of the {centres}"
-            parts = [part.removesuffix(_CENTRE_OF_MASS) for part in parts]
-        if parts == ["Input"]:
-            return f"Input {first}"
-        return f"{first[:1].upper()}{first[1:]} of {_listed([*map(_in_sentence, parts)])}"
+        known = [self.values.scene.quantities[token] for token in tokens]
+        if not known[0].part:
+            return known[0].measure
+        parts = [one.part for one in known]
+        what = said_as("list", " and ").join(dict.fromkeys(one.measure for one in known))
+        if parts == [said("Input")]:
+            return said("Input {measure}", measure=what)
+        form = to_say("{measure} of {parts}")
+        if all(".com_" in token for token in tokens):
+            scene = self.values.scene
+            parts = [
+                called(scene.linkage.body(token.partition(".")[0]), scene.info.link_names) for token in tokens
+            ]
+            form = to_say("{measure} of the centres of mass of {parts}")
+            if len(parts) == 1:
+                form = to_say("{measure} of the centre of mass of {parts}")
+        caption = said(form, measure=what, parts=row_said([*map(_in_sentence, parts)]))
+        return caption[:1].upper() + caption[1:]
 
 
 def _in_sentence(part: str) -> str:
@@ -439,8 +449,4 @@ def _in_sentence(part: str) -> str:
     if not part[1:2].islower():
         return part
     name = f"{part[:1].lower()}{part[1:]}"
-    return name if len(name.rpartition(" ")[2]) <= _SHORT_NAME else f"the {name}"
-
-
-def _listed(parts: list[str]) -> str:
-    return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0]
+    return name if len(name.rpartition(" ")[2]) <= _SHORT_NAME else said("the {name}", name=name)

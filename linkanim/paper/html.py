@@ -17,6 +17,7 @@ from linkanim.frozen import frozen
 from linkanim.paper.findings import Column, Finding, ValueTable
 from linkanim.paper.svg import RIMMED, in_steps
 from linkanim.units import signed
+from linkanim.words import html_language, said
 
 _STYLE = f"""
 :root {{ color-scheme: light; }}{body_style("15px/1.45", 60)}\
@@ -140,7 +141,8 @@ def page(
         for n, (name, parts) in enumerate(chapters, start=1)
     ]
     entries = "".join(f"<li><a href='#chapter-{n}'>{n} {symbol(name)}</a></li>" for n, name, _ in numbered)
-    contents = f"<nav aria-label='Contents'><ul>{entries}</ul></nav>"
+    label = said("Contents")
+    contents = f"<nav aria-label='{label}'><ul>{entries}</ul></nav>"
     listed = _figures_of(chapters)
     body = "\n".join([heading(1, title), *head, contents])
     sections = [
@@ -156,7 +158,7 @@ def page(
         sections.append(listed)
     inside = "\n".join(sections)
     return (
-        f"<!doctype html>\n<html lang='en'><head>{start}</head><body>\n"
+        f"<!doctype html>\n<html lang='{html_language()}'><head>{start}</head><body>\n"
         f"<header>\n{body}\n</header>\n<main>\n{inside}\n</main>\n</body></html>\n"
     )
 
@@ -168,7 +170,8 @@ def _figures_of(chapters: Iterable[tuple[str, Iterable[Part]]]) -> str:
         return ""
     numbered = enumerate(captions, 1)
     entries = "".join(f"<li><a href='#figure-{n}'>{n} {unbroken(one)}</a></li>" for n, one in numbered)
-    return f"<nav class='figures keep' aria-label='Figures'>{heading(2, 'Figures')}<ul>{entries}</ul></nav>"
+    title = said("Figures")
+    return f"<nav class='figures keep' aria-label='{title}'>{heading(2, title)}<ul>{entries}</ul></nav>"
 
 
 def _figures_in(parts: Iterable[Part]) -> Iterator[FigurePart]:
@@ -200,13 +203,17 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
             return part
         case FigurePart(picture, caption, highest, words, _):
             number = next(figures)
-            title = f"Figure {number}. {caption}"
-            drawn = embedded(picture, f"{title}. {words}" if words else title, f"max-height: {highest}mm")
+            title = said("Figure {number}. {caption}", number=number, caption=caption)
+            drawn = embedded(
+                picture,
+                said("{title}. {words}", title=title, words=words) if words else title,
+                f"max-height: {highest}mm",
+            )
             below = paragraph(words, "seen") if words else ""
             told = f"<figcaption>{unbroken(title)}</figcaption>{below}"
             return f"<figure id='figure-{number}'>{drawn}{told}</figure>"
         case TablePart():
-            title = f"Table {next(tables)}. {part.caption}"
+            title = said("Table {number}. {caption}", number=next(tables), caption=part.caption)
             table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"
             notes = "".join(paragraph(note, "note") for note in part.notes)
             return f"{_KEPT if part.count <= _ROWS_KEPT else _LONG}{table}{notes}</div>"
@@ -253,17 +260,21 @@ def sheet_parts(
 ) -> Iterator[TablePart]:
     """Yield the tables of every quantity at one instant, where the input is at a place."""
     heads = "".join(f"<th class='n' scope='col'>{escape(speed)}</th>" for speed in speeds)
-    first, last = "<th scope='col'>quantity</th><th scope='col'>symbol</th>", "<th scope='col'>unit</th>"
-    head = f"<thead><tr>{first}{heads}{last}</tr></thead>"
+    quantity, symbol_, unit = (
+        f"<th scope='col'>{one}</th>" for one in (said("quantity"), said("symbol"), said("unit"))
+    )
+    head = f"<thead><tr>{quantity}{symbol_}{heads}{unit}</tr></thead>"
     for title, rows in sections.items():
         if rows:
             lines = "".join(
                 # without what the heading says
-                f"<tr><th scope='row'>{escape(row.quantity.words.rpartition(': ')[2])}</th>"
+                f"<tr><th scope='row'>{escape(row.quantity.measure)}</th>"
                 f"<td>{symbol(row.quantity.symbol)}</td>{_numbers(row.values)}<td>{escape(row.unit)}</td></tr>"
                 for row in rows
             )
-            yield TablePart(f"{title}, {place}", f"{head}<tbody>{lines}</tbody>", len(rows))
+            yield TablePart(
+                said("{title}, {place}", title=title, place=place), f"{head}<tbody>{lines}</tbody>", len(rows)
+            )
 
 
 def _numbers(values: Iterable[str]) -> str:
@@ -280,7 +291,10 @@ def values_part(table: ValueTable) -> TablePart:
         for title, rows in table.groups
     )
     lines = sum(len(rows) + 1 for _, rows in table.groups)
-    title, rows = f"{table.title}: {table.about}", _head(table.head, columns) + groups
+    title, rows = (
+        said("{title}: {part}", title=table.title, part=table.about),
+        _head(table.head, columns) + groups,
+    )
     return TablePart(title, rows, lines, "values", table.notes)
 
 

@@ -48,6 +48,7 @@ from linkanim.scenes.editing import Dimension, dimensions
 from linkanim.scenes.files import PublishedTable
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, significant
+from linkanim.words import said, said_as, sentences
 
 _CHART = (400, 205)
 _BROAD_CHART = (820, 205)
@@ -116,7 +117,7 @@ class Report:
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
         chapters = ((title, self._watched(parts)) for title, parts in self._chapters())
-        yield "report.html", html.page(self.scene.title, self._head(), chapters)
+        yield "report.html", html.page(said(self.scene.title), self._head(), chapters)
         yield "figure.svg", self._figure.document()
         if self._worked.loops:
             yield "loops.svg", vectors_svg(self._worked)
@@ -194,46 +195,59 @@ class Report:
         curves, size = within_a_turn(curves_of(self.scene, tokens, paces)), _BROAD_CHART if broad else _CHART
         drawn = Page(curves, size=size, brief=True)
         picture = svg(size, drawn.background, drawn.groups(), title=caption)
-        at = f", at {paces[0].words}" if order and len(paces) == 1 else ""
-        return tokens, FigurePart(picture, f"{caption}{at}", words=about(curves), broad=broad)
+        if order and len(paces) == 1:
+            caption = said("{caption}, at {speed}", caption=caption, speed=paces[0].words)
+        return tokens, FigurePart(picture, caption, words=about(curves), broad=broad)
 
     def _head(self) -> Iterator[str]:
         yield html.paragraph(self.scene.source, "source")
         if self.scene.look_at:
-            yield html.paragraph(self.scene.look_at)
-        speeds = ", ".join(pace.words for pace in self.paces)
+            yield html.paragraph(said(self.scene.look_at))
+        speeds = said_as("list", ", ").join(pace.words for pace in self.paces)
         yield html.paragraph(
-            "All positions, velocities and accelerations are closed-form solutions by linkanim "
-            f"{__version__}. The speed of the {self.scene.info.input_name} is {speeds}, {self._steadily}. "
-            f"Numbers have {self.digits} significant digits."
+            sentences(
+                said(
+                    "All positions, velocities and accelerations are closed-form solutions by linkanim "
+                    "{version}.",
+                    version=__version__,
+                ),
+                self._steadily(speeds),
+                said("Numbers have {digits} significant digits.", digits=self.digits),
+            )
         )
 
-    @property
-    def _steadily(self) -> str:
-        second = self.paces[0].acceleration
-        return (
-            f"and its acceleration {second:g} rad/s² in every position shown"
-            if second
-            else "constant in time"
-        )
+    def _steadily(self, speeds: str) -> str:
+        """Return the sentence on the input's speed."""
+        known, second = {"link": self.scene.info.input_said, "speeds": speeds}, self.paces[0].acceleration
+        if second:
+            return said(
+                "The speed of the {link} is {speeds}, and its acceleration {second} rad/s² in every position "
+                "shown.",
+                **known,
+                second=f"{second:g}",
+            )
+        return said("The speed of the {link} is {speeds}, constant in time.", **known)
 
     def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
-        yield "The mechanism", self._mechanism()
+        yield said("The mechanism"), self._mechanism()
         if self._worked.loops:
-            yield "Vector loops", self._vector_loops()
+            yield said("Vector loops"), self._vector_loops()
             if self.derivation:
-                yield "Derivation", self._derivation()
+                yield said("Derivation"), self._derivation()
         if len(self.instants) > 1:
-            yield "Poses", self._poses()
-        yield "Values", self._tables()
+            yield said("Poses"), self._poses()
+        yield said("Values"), self._tables()
         for title, charts in self._topics.items():
             yield title, _in_rows([chart for _, chart in charts])
         if self.published:
-            yield "Comparison with printed values", [self._printed(one) for one in self.published]
+            yield said("Comparison with printed values"), [self._printed(one) for one in self.published]
         if self.measured:
-            yield f"Comparison: {self.label}", self._comparison()
-        yield "Velocity and acceleration polygons", self._polygons()
-        yield "Summary", [html.paragraph(self._typeset(one)) for one in closing(self.scene, self.paces[0])]
+            yield said("Comparison: {label}", label=self.label), self._comparison()
+        yield said("Velocity and acceleration polygons"), self._polygons()
+        yield (
+            said("Summary"),
+            [html.paragraph(self._typeset(one)) for one in closing(self.scene, self.paces[0])],
+        )
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
@@ -241,18 +255,28 @@ class Report:
                     place_of(self.scene, instant),
                     sheet(self._values, instant, self.paces, self.digits),
                 )
-                yield f"Every quantity at {place}", html.sheet_parts(findings, place, speeds)
-            title = f"Every quantity over one period, at {', '.join(speeds)}"
+                yield (
+                    said("Every quantity at {place}", place=place),
+                    html.sheet_parts(findings, place, speeds),
+                )
+            title = said(
+                "Every quantity over one period, at {speeds}", speeds=said_as("list", ", ").join(speeds)
+            )
             yield title, _in_rows([chart for _, chart in self._every])
 
     def _mechanism(self) -> Iterator[Part]:
         scene, shown = self.scene, self._figure
-        drawn = FigurePart(shown.document(), f"{scene.title} with its dimensions at {shown.caption}")
+        drawn = FigurePart(
+            shown.document(),
+            said("{title} with its dimensions at {place}", title=said(scene.title), place=shown.caption),
+        )
         stated = self._dimensions()
-        known = tuple((label, self._typeset(value)) for label, value in scene.info.lines)
+        known = tuple((said(label), self._typeset(value)) for label, value in scene.info.lines)
         own = scene.linkage.drive.speed
-        at = "" if [pace.speed for pace in self.paces] == [own] else f" at {speed_words(scene, own)}"
-        facts, lengths = (f"Facts{at}", known), ("Dimensions", tuple(stated))
+        heading = said("Facts")
+        if [pace.speed for pace in self.paces] != [own]:
+            heading = said("Facts at {speed}", speed=speed_words(scene, own))
+        facts, lengths = (heading, known), (said("Dimensions"), tuple(stated))
         if self._tall:
             yield html.facts(*facts, 3 if _widest(known, 3) <= _WIDTH else 2)
             told = html.facts(*lengths, 1 if len(lengths[1]) <= _MOST_LINES else 2)
@@ -302,7 +326,7 @@ class Report:
         return f"{number}°" if unit == "deg" else f"{number} {unit}".strip()
 
     def _vector_loops(self) -> Iterator[Part]:
-        caption = f"Vector loops at {self._figure.caption}"
+        caption = said("Vector loops at {place}", place=self._figure.caption)
         given, loops, *_ = self._worked.chapters
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
         # after the headings of both chapters and the figure
@@ -319,9 +343,11 @@ class Report:
     def _derivation(self) -> Iterator[Part]:
         """Yield the formulas of the positions, and of the differentiated loops, in symbols."""
         yield html.paragraph(
-            "Each step goes on from those before it. The last steps differentiate the loops with respect to "
-            "the input. Their coefficients, times the input's velocity and its square, are the velocities "
-            "and accelerations."
+            said(
+                "Each step goes on from those before it. The last steps differentiate the loops with respect "
+                "to the input. Their coefficients, times the input's velocity and its square, are the "
+                "velocities and accelerations."
+            )
         )
         yield f"<div class='derivation'>{''.join(derivation(self._worked, HTML))}</div>"
 
@@ -338,8 +364,10 @@ class Report:
             at = f"{measured.inputs[worst]:.6g} {'s' if measured.over == 'time' else '°'}".replace(" °", "°")
             chart = FigurePart(
                 svg(_CHART, drawn.background, drawn.groups(), title=words),
-                f"{words}, at {pace.words}, and {self.label}",
-                words=f"The largest difference is {off}, at {at}.",
+                said(
+                    "{quantity}, at {speed}, and {label}", quantity=words, speed=pace.words, label=self.label
+                ),
+                words=said("The largest difference is {off}, at {place}.", off=off, place=at),
             )
             yield Beside((chart, self._differences(measured, words, unit)))
 
@@ -352,18 +380,21 @@ class Report:
             [f"{measured.inputs[n]:.6g}", *(rounded(float(column[n]), self.digits) for column in columns)]
             for n in chosen
         ]
-        at = "time (s)" if measured.over == "time" else "input (°)"
+        at = said("time (s)") if measured.over == "time" else said("input (°)")
         of = f" ({unit})" if unit else ""
-        heads = [at, f"this solution{of}", f"{self.label}{of}", f"difference{of}", "percent"]
-        left_out = f", {len(chosen)} of {count} rows" if len(chosen) < count else ""
-        return html.table(f"{words}: this solution and {self.label}{left_out}", heads, rows)
+        ours, off = said("this solution"), said("difference")
+        heads = [at, f"{ours}{of}", f"{self.label}{of}", f"{off}{of}", said("percent")]
+        title = said("{quantity}: this solution and {label}", quantity=words, label=self.label)
+        if len(chosen) < count:
+            title = said("{title}, {some} of {count} rows", title=title, some=len(chosen), count=count)
+        return html.table(title, heads, rows)
 
     def _printed(self, printed: PublishedTable) -> TablePart:
         """Return a table of printed values of each method, and by how much they differ from ours."""
         scene = self.scene
         motion = scene.solve(angle=printed.angle, speed=printed.speed)
-        heads = ["quantity", "this solution"]
-        heads += [head for method in printed.methods for head in (method, "percent")]
+        heads = [said("quantity"), said("this solution")]
+        heads += [head for method in printed.methods for head in (method, said("percent"))]
         rows = []
         for token, values in printed.values.items():
             quantity = scene.quantities[token]
@@ -387,7 +418,7 @@ class Report:
         figures = (
             FigurePart(
                 Figured(self.scene, size, look, instant.phase).document(),
-                f"The mechanism at {place_of(self.scene, instant)}",
+                said("The mechanism at {place}", place=place_of(self.scene, instant)),
                 _HIGHEST_BESIDE,
             )
             for instant in self.instants
@@ -406,8 +437,12 @@ class Report:
         for instant, pace in product(moving, paces):
             speed, second = pace.speed, pace.acceleration
             shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
-            where = f"at {place_of(self.scene, instant)}, {pace.words}"
-            yield FigurePart(polygons_svg(shown), f"Velocity and acceleration polygon {where}")
+            title = said(
+                "Velocity and acceleration polygon at {place}, {speed}",
+                place=place_of(self.scene, instant),
+                speed=pace.words,
+            )
+            yield FigurePart(polygons_svg(shown), title)
 
 
 def _to_its_side(item: Dimension) -> Dimension:

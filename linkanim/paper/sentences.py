@@ -18,6 +18,7 @@ from linkanim.paper.curves import Curve, Curves, Pace, Peak, curves_of, extremes
 from linkanim.picture.quantities import Floats, driven_words, unbounded_places
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, short, stepped, typeset
+from linkanim.words import row_said, said, said_as, sentences
 
 _CLOSING = ("input", "stroke", "time ratio", "transmission angle", "true period")
 """The labels of the scene's facts with which a report ends."""
@@ -47,7 +48,8 @@ def about(curves: Curves) -> str:
     A level curve has no sentence. Where several curves share a chart each has a short one.
     """
     told = _described(curves)
-    return " ".join(sentence for curve in told for sentence in _sentences(curves, curve, brief=len(told) > 1))
+    brief = len(told) > 1
+    return sentences(*(sentence for curve in told for sentence in _sentences(curves, curve, brief=brief)))
 
 
 def closing(scene: Scene, pace: Pace) -> Iterator[str]:
@@ -55,11 +57,15 @@ def closing(scene: Scene, pace: Pace) -> Iterator[str]:
     lasts = f"{short(scene.period / abs(pace.speed))} s"
     facts = [
         # the scene's own say how long it lasts at its own speed
-        f"{label}: {_LASTS.sub(lasts, value) if label == 'true period' else value}"
+        said(
+            "{label}: {words}",
+            label=said(label),
+            words=_LASTS.sub(lasts, value) if label == "true period" else value,
+        )
         for label, value in scene.info.lines
         if label in _CLOSING
     ]
-    yield " ".join(_sentence(text) for text in (scene.info.class_name, *facts))
+    yield sentences(*map(_sentence, (scene.info.class_said, *facts)))
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output is None:
         return
@@ -68,8 +74,8 @@ def closing(scene: Scene, pace: Pace) -> Iterator[str]:
         kinds = ("angle", "angular_velocity", "angular_acceleration")
     tokens = [token for kind in kinds if (token := f"{output.name}.{kind}") in scene.quantities]
     for token in tokens:
-        if said := about(within_a_turn(curves_of(scene, (token,), (pace,)))):
-            yield f"{scene.quantities[token].words}. {said}"
+        if found := about(within_a_turn(curves_of(scene, (token,), (pace,)))):
+            yield sentences(said("{found}.", found=scene.quantities[token].words), found)
 
 
 def of_motion(scene: Scene, pace: Pace) -> str:
@@ -77,15 +83,25 @@ def of_motion(scene: Scene, pace: Pace) -> str:
     info = scene.info
     names = [joint.name for joint in scene.linkage.joints if joint.name in scene.trace]
     _, *told = closing(scene, pace)
-    traced = f"Traced: {' and '.join(names)}." if names else ""
     parts = [
-        _sentence(scene.title),
-        _sentence(f"{info.class_name}: the {info.input_name} {info.input_words}, at {pace.words}"),
+        _sentence(said(scene.title)),
+        _sentence(
+            said(
+                "{class_name}: the {link} {moves}, at {speed}",
+                class_name=info.class_said,
+                link=info.input_said,
+                moves=info.input_words,
+                speed=pace.words,
+            )
+        ),
         *told[:1],
-        traced,
-        f"One true period lasts {scene.period / abs(pace.speed):.4g} s, and then it begins again.",
+        said("Traced: {joints}.", joints=row_said(names)) if names else "",
+        said(
+            "One true period lasts {time} s, and then it begins again.",
+            time=f"{scene.period / abs(pace.speed):.4g}",
+        ),
     ]
-    return without_subscripts(" ".join(part for part in parts if part))
+    return without_subscripts(sentences(*parts))
 
 
 def of_pose(scene: Scene, phase: float) -> str:
@@ -98,18 +114,22 @@ def of_pose(scene: Scene, phase: float) -> str:
         name = name[:1].lower() + name[1:]
         if body.slider:
             travel = rounded(float(pose.travel[body.name]), _DIGITS)
-            stand.append(f"{name} {travel} {scene.length_unit} along its guide")
+            length = f"{travel} {scene.length_unit}"
+            stand.append(said("{link} {length} along its guide", link=name, length=length))
         else:
-            stand.append(f"{name} at {np.degrees(pose.angle[body.name]) % 360:.1f}°")
+            angle = f"{np.degrees(pose.angle[body.name]) % 360:.1f}°"
+            stand.append(said("{link} at {angle}", link=name, angle=angle))
     if not stand:  # no link has a name
         for joint in scene.linkage.joints:
             if not joint.fixed:
                 x, y = (stepped(float(value), scene.length_step) for value in pose.position[joint.name])
-                stand.append(f"{joint.name} at ({x}, {y}) {scene.length_unit}")
-    more = f", and {len(stand) - _MOST_TOLD} more" if len(stand) > _MOST_TOLD else ""
-    return without_subscripts(
-        f"{_sentence(scene.title)} At {pose_words}: {', '.join(stand[:_MOST_TOLD])}{more}."
-    )
+                place = f"({x}, {y}) {scene.length_unit}"
+                stand.append(said("{joint} at {place}", joint=joint.name, place=place))
+    links = said_as("list", ", ").join(stand[:_MOST_TOLD])
+    if len(stand) > _MOST_TOLD:
+        links = said("{links}, and {count} more", links=links, count=len(stand) - _MOST_TOLD)
+    told = said("At {place}: {links}.", place=pose_words, links=links)
+    return without_subscripts(sentences(_sentence(said(scene.title)), told))
 
 
 def without_subscripts(text: str) -> str:
@@ -118,7 +138,7 @@ def without_subscripts(text: str) -> str:
 
 
 def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:].rstrip('.')}."
+    return said("{found}.", found=f"{text[:1].upper()}{text[1:].rstrip('.。')}")
 
 
 def _described(curves: Curves) -> Sequence[Curve]:
@@ -139,18 +159,29 @@ def _sentences(curves: Curves, curve: Curve, *, brief: bool) -> Iterator[str]:
     high, low = peaks
     symbol = ", ".join(part for part in (curve.quantity.symbol, curve.label) if part)
     several = len({one.pace for one in curves.curves}) > 1 and curve.quantity.order
-    name = f"At {curve.pace.words} {symbol}" if several else symbol
+    name = said("At {speed} {symbol}", speed=curve.pace.words, symbol=symbol) if several else symbol
     zeros = _zeros(curves, curve)
     if brief:
-        there = f", and {_zero_words(zeros)}" if zeros else ""
-        yield f"{name} goes from {_ends(curves, curve, (low, high))}{there}."
+        known = {"name": name, "ends": _ends(curves, curve, (low, high))}
+        if zeros:
+            yield said("{name} goes from {ends}, and {zeros}.", **known, zeros=_zero_words(zeros))
+        else:
+            yield said("{name} goes from {ends}.", **known)
         return
     if curve.quantity.order == 0 and (way := _way_up(curves, curve)) is not None:
         yield _to_and_fro(curves, curve, name, (low, high), way)
         return
-    there = f"; it {_zero_words(zeros)}" if zeros else ""
-    told = [f"{_value(curves, curve, peak.value)}, {_at(curves, peak)}" for peak in peaks]
-    yield f"{name} is greatest, {told[0]}, and least, {told[1]}{there}."
+    most, least = (
+        said("{value}, {place}", value=_value(curves, curve, peak.value), place=_at(curves, peak))
+        for peak in peaks
+    )
+    known = {"name": name, "most": most, "least": least}
+    if zeros:
+        yield said(
+            "{name} is greatest, {most}, and least, {least}; it {zeros}.", **known, zeros=_zero_words(zeros)
+        )
+    else:
+        yield said("{name} is greatest, {most}, and least, {least}.", **known)
 
 
 def _unbounded(curves: Curves, curve: Curve) -> Iterator[str]:
@@ -159,28 +190,35 @@ def _unbounded(curves: Curves, curve: Curve) -> Iterator[str]:
     places = list(dict.fromkeys(_input_places(curves, phases)))
     if 0 < len(places) <= _MOST_ZEROS:
         symbol = ", ".join(part for part in (curve.quantity.symbol, curve.label) if part)
-        yield f"{symbol} goes to infinity at {input_symbol(curves.scene.linkage)} = {_listed(places)}."
+        at = f"{input_symbol(curves.scene.linkage)} = {row_said(places)}"
+        yield said("{symbol} goes to infinity at {place}.", symbol=symbol, place=at)
 
 
 def _ends(curves: Curves, curve: Curve, ends: tuple[Peak, Peak]) -> str:
     """Return between which values a curve goes: −611.0 mm at θ₂ = 316.7° to −543.8 mm at θ₂ = 70.9°."""
-    return " to ".join(f"{_value(curves, curve, end.value)} {_at(curves, end)}" for end in ends)
+    low, high = (
+        said("{value} {place}", value=_value(curves, curve, end.value), place=_at(curves, end))
+        for end in ends
+    )
+    return said("{low} to {high}", low=low, high=high)
 
 
 def _to_and_fro(curves: Curves, curve: Curve, name: str, ends: tuple[Peak, Peak], up: float) -> str:
     """Return the sentence on a curve that rises and falls once in a period; `up` is the share of the rise."""
-    between = f"{name} rises from {_ends(curves, curve, ends)} and falls again"
+    between = said("{name} rises from {ends} and falls again", name=name, ends=_ends(curves, curve, ends))
     if not curve.quantity.token.endswith(_PLACES):
-        return f"{between}."
+        return said("{found}.", found=between)
     if abs(up - 0.5) < _EVEN:
-        return f"{between}; both ways take the same time."
-    slow, share = ("way up", up) if up > 0.5 else ("way down", 1 - up)
+        return said("{found}; both ways take the same time.", found=between)
+    share = max(up, 1 - up)
     turned = ""
     if curves.scene.info.full_turn and abs(curves.scene.period - tau) < _NOTHING:
-        turned = f" ({360 * share:.1f}° of the input)"
+        turned = said(" ({angle}° of the input)", angle=f"{360 * share:.1f}")
     ratio = share / (1 - share)
-    told = f"{ratio:.{3 if ratio < _NEARLY_EVEN else 2}f}"
-    return f"{between}; the {slow} is the slow one{turned}, time ratio {told}."
+    known = {"found": between, "turned": turned, "ratio": f"{ratio:.{3 if ratio < _NEARLY_EVEN else 2}f}"}
+    if up > 0.5:
+        return said("{found}; the way up is the slow one{turned}, time ratio {ratio}.", **known)
+    return said("{found}; the way down is the slow one{turned}, time ratio {ratio}.", **known)
 
 
 def _way_up(curves: Curves, curve: Curve) -> float | None:
@@ -235,19 +273,16 @@ def _times(curve: Curve, phases: Floats) -> list[float]:
 
 def _zero_words(zeros: list[str]) -> str:
     if len(zeros) > _MOST_ZEROS:
-        return f"changes its sign {len(zeros)} times"
-    return f"changes its sign at {_listed(zeros)}"
-
-
-def _listed(places: list[str]) -> str:
-    return " and ".join(part for part in (", ".join(places[:-1]), places[-1]) if part)
+        return said("changes its sign {count} times", count=len(zeros))
+    return said("changes its sign at {places}", places=row_said(zeros))
 
 
 def _at(curves: Curves, peak: Peak) -> str:
     """Return where the input is, in words: "at θ₂ = 71.0°"; for curves over time "at t = 2 s"."""
     if curves.in_time:
-        return f"at t = {_seconds(curves, peak.x)}"
-    return f"at {input_symbol(curves.scene.linkage)} = {_place(curves, peak.angle)}"
+        return said("at {place}", place=f"t = {_seconds(curves, peak.x)}")
+    place = f"{input_symbol(curves.scene.linkage)} = {_place(curves, peak.angle)}"
+    return said("at {place}", place=place)
 
 
 def _seconds(curves: Curves, time: float) -> str:

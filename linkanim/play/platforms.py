@@ -86,8 +86,10 @@ class _Posed(NamedTuple):
         """Return the feedback of an answer, as HTML."""
         slip = self.answers[number].slip
         if number == self.question.right:
-            return f"<p>{said('Right.')}</p>"
-        return f"<p>{escape(said('No: that is {slip}.', slip=slip) if slip else said('No.'))}</p>"
+            told = said("Right.")
+        else:
+            told = said("No: that is {slip}.", slip=slip) if slip else said("No.")
+        return f"<p>{escape(told)}</p>"
 
     @property
     def why(self) -> str:

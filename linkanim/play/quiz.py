@@ -265,7 +265,8 @@ def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], Non
 
 
 def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
-    yield f"<div class='key'><h1>{escape(said('Key: {title}', title=title))}</h1><ol>"
+    heading = escape(said("Key: {title}", title=title))
+    yield f"<div class='key'><h1>{heading}</h1><ol>"
     yield from (
         f"<li>{escape(_key(question))}<br><small>{escape(_slips(question))}</small></li>"
         for question in round_

@@ -8,6 +8,7 @@ with "\\u0004" between.
 
 from __future__ import annotations
 
+import gc
 import json
 import re
 import sys
@@ -66,6 +67,7 @@ def _of_tables() -> Iterator[Sentence]:
     from linkanim.play.kinds import KINDS
     from linkanim.play.match import level_names, level_of
     from linkanim.play.menus import DOORS, OFFERS
+    from linkanim.scenes.form import Field
     from linkanim.share.page import packaged, page_words, script_words
 
     for name, toggle in TOGGLES.items():
@@ -76,6 +78,10 @@ def _of_tables() -> Iterator[Sentence]:
     for name in level_names():
         level = level_of(name)
         yield from (Sentence(None, words, None, f"level {name}") for words in (level.title, level.about))
+    for one in gc.get_objects():
+        if isinstance(one, Field) and one.label is not None:
+            labels = (one.label,) if isinstance(one.label, str) else one.label
+            yield from (Sentence(None, words, None, f"field {one.key}") for words in labels)
     for file in ("page.html", "index.html"):
         yield from (Sentence(None, words, None, f"share/{file}") for words in page_words(packaged(file)))
     for file in ("lengths.js", "page.js"):

@@ -9,6 +9,7 @@ from gettext import NullTranslations
 from html import unescape
 
 import pytest
+from catalogue import sentences
 
 from linkanim import words
 from linkanim.words import speaking
@@ -31,23 +32,32 @@ def longer(message: str) -> str:
 
 
 class _Pseudo(NullTranslations):
-    def gettext(self, message: str) -> str:
-        return longer(message)
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked: set[tuple[str | None, str]] = set()
 
-    def pgettext(self, context: str, message: str) -> str:
+    def gettext(self, message: str) -> str:
+        return self.pgettext(None, message)
+
+    def pgettext(self, context: str | None, message: str) -> str:
+        self.asked.add((context, message))
         return longer(message)
 
     def ngettext(self, one: str, many: str, n: int) -> str:
+        self.asked.add((None, one))
         return longer(one if n == 1 else many)
 
 
 @contextmanager
 def spoken_pseudo(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Speak the language while the block runs."""
+    """Speak the language while the block runs; what is said then is in the catalogue, names aside."""
+    spoken = _Pseudo()
     with monkeypatch.context() as patch:
-        patch.setattr(words, "_catalogue", lambda _: _Pseudo())
+        patch.setattr(words, "_catalogue", lambda _: spoken)
         with speaking(NAME):
             yield
+    unknown = {message for context, message in spoken.asked - sentences().keys() if context != "name"}
+    assert sorted(one for one in unknown if _PLAIN.search(one)) == []
 
 
 def plain_words(text: str, known: frozenset[str] = frozenset()) -> set[str]:

@@ -83,8 +83,8 @@ def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
     rounds: dict[str, list[QuizQuestion]] = {}
     for question in asked:
         chapter = chapter_of(question.scene.name)
-        heading = said(chapter or "")
-        rounds.setdefault(heading[:1].upper() + heading[1:] if chapter else title, []).append(question)
+        heading = said(chapter) if chapter else title
+        rounds.setdefault(heading[:1].upper() + heading[1:], []).append(question)
     return rounds
 
 
