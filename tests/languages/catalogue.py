@@ -8,11 +8,10 @@ with "\\u0004" between.
 
 from __future__ import annotations
 
-import gc
 import json
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
@@ -67,6 +66,7 @@ def _of_tables() -> Iterator[Sentence]:
     from linkanim.play.kinds import KINDS
     from linkanim.play.match import level_names, level_of
     from linkanim.play.menus import DOORS, OFFERS
+    from linkanim.scenes import file_form
     from linkanim.scenes.form import Field
     from linkanim.share.page import packaged, page_words, script_words
 
@@ -78,10 +78,12 @@ def _of_tables() -> Iterator[Sentence]:
     for name in level_names():
         level = level_of(name)
         yield from (Sentence(None, words, None, f"level {name}") for words in (level.title, level.about))
-    for one in gc.get_objects():
+    for one in _inside(vars(file_form).copy(), set()):
         if isinstance(one, Field) and one.label is not None:
             labels = (one.label,) if isinstance(one.label, str) else one.label
-            yield from (Sentence(None, words, None, f"field {one.key}") for words in labels)
+            # a field that holds no number is called by its key, and shown nowhere
+            shown = (words for words in labels if words != one.key.replace("_", " ") or one.key in _NUMBERS)
+            yield from (Sentence(None, words, None, f"field {one.key}") for words in shown)
     for file in ("page.html", "index.html"):
         yield from (Sentence(None, words, None, f"share/{file}") for words in page_words(packaged(file)))
     for file in ("lengths.js", "page.js"):
@@ -152,6 +154,26 @@ _OF_A_SHEET = (
 
 
 _KEY = re.compile("Space|Enter|Tab|Shift|Ctrl|Alt|Esc|PgUp|PgDn|Del")
+
+
+def _inside(value: object, seen: set[int]) -> Iterator[object]:
+    """Yield a value of the scene file's form, and all that are in it."""
+    if id(value) in seen:
+        return
+    seen.add(id(value))
+    yield value
+    parts: Iterable[object] = ()
+    if isinstance(value, dict):
+        parts = value.values()
+    elif isinstance(value, (tuple, list)):
+        parts = value
+    elif type(value).__module__.startswith("linkanim.scenes"):
+        parts = vars(value).values() if hasattr(value, "__dict__") else ()
+    for part in parts:
+        yield from _inside(part, seen)
+
+
+_NUMBERS = ("mass", "stiffness")
 _NAME = re.compile(r"[a-z]{3,}( [a-z]+)*\d?")
 """A name that is a word: no letter of a joint, no number."""
 _USUAL = (
