@@ -59,8 +59,8 @@ def pushed(way: complex, reach: float, size: Size, flat: bool) -> complex:
         return way * (wide + reach) / across
     if down and (high + reach) * across <= wide * down:
         return way * (high + reach) / down
-    slack = max(reach**2 - (across * high - down * wide) ** 2, 0.0)
-    return way * (across * wide + down * high + sqrt(slack))
+    square = max(reach**2 - (across * high - down * wide) ** 2, 0.0)
+    return way * (across * wide + down * high + sqrt(square))
 
 
 class Anchors(NamedTuple):
@@ -95,8 +95,8 @@ class Anchors(NamedTuple):
         wide, high = size[0] / 2, size[1] / 2
         far = self.reach + across * wide + down * high
         if not self.flat:
-            slack = self.reach**2 - (across * high - down * wide) ** 2
-            far = across * wide + down * high + np.sqrt(np.maximum(slack, 0.0))
+            square = self.reach**2 - (across * high - down * wide) ** 2
+            far = across * wide + down * high + np.sqrt(np.maximum(square, 0.0))
             with np.errstate(divide="ignore", invalid="ignore"):
                 far = np.where((wide + self.reach) * down <= high * across, (wide + self.reach) / across, far)
                 far = np.where((high + self.reach) * across <= wide * down, (high + self.reach) / down, far)

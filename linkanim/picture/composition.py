@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache
 from itertools import product
@@ -233,16 +233,19 @@ class _Composer:
             if grown < (_SAME if still else _ALIKE):
                 return replace(composition, names=names)
         names = self._names(composition)
-        rows = len(names.listed) + len(self._far_centres)
-        composition = (
-            self._arranged_for(names, composition) if rows != len(composition.listed) else composition
-        )
+        while not {label.row for label in names.listed} <= {*composition.listed}:
+            composition = self._arranged_for(names, composition, composition.listed)
+            names = self._names(composition)  # names hold in the view in which they were chosen
         return replace(composition, names=names)
 
-    def _arranged_for(self, names: Names, composition: Composition) -> Composition:
-        """Return the composition with room for exactly these names, which were chosen in another one."""
+    def _arranged_for(self, names: Names, composition: Composition, rows: Iterable[str] = ()) -> Composition:
+        """Return the composition with room for exactly these names, which were chosen in another one.
+
+        What they list has room, and so have further `rows`.
+        """
         exact = together([self._linkage, self._arrow_extent, *self._label_extents(names, composition)])
-        return self._arranged(exact, (*(label.row for label in names.listed), *self._far_centres))
+        listed = (*rows, *(label.row for label in names.listed), *self._far_centres)
+        return self._arranged(exact, tuple(dict.fromkeys(listed)))
 
     def _share(self, composition: Composition) -> float:
         """Return the share of the picture's width or height that the linkage takes, whichever is greater."""

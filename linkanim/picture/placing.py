@@ -30,6 +30,8 @@ _COVERING_MOMENTS = 8
 """The moments at which it is asked what a place covers."""
 _BETWEEN = 0.35
 """The gap between two labels side by side, in heights of letters."""
+_NEARER = 1.0
+"""The pixels by which a value is nearer to its own line than to another dimension's."""
 _SURE = 1e-9
 
 
@@ -162,6 +164,7 @@ def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
     """Return the number of the place that each label takes; None for a label without a place."""
     labels, faults = [one.label for one in known], [one.faults.copy() for one in known]
     free = [int((~fault.any(axis=0)).sum()) for fault in faults]
+    off = [_off_its_line(label) if label.gap else None for label in labels]
     choice: list[int | None] = [None] * len(labels)
     order = sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n))
     for turn, n in enumerate(order, start=1):
@@ -177,7 +180,13 @@ def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
         for other in order[turn:]:
             near = known[other].swept.met_by(swept, labels[other].gap + mine.size[1])
             if near.any():
-                faults[other][near] |= _hit_by(labels[other].during(near), mine.during(near))
+                places, taken = labels[other].during(near), mine.during(near)
+                faults[other][near] |= _hit_by(places, taken)
+                near_own, near_taken = off[other], off[n]
+                if near_own is not None and near_taken is not None:
+                    faults[other][near] |= _confused(
+                        places, taken, near_own[near], near_taken[near, best : best + 1]
+                    )
     return choice
 
 
@@ -240,6 +249,26 @@ def _hit_by(label: Alternatives, other: Alternatives) -> Bools:
         if lines is not None and label.gap:
             hit |= _between(label.lines[:, :, 0], lines[:, None, 0]) < label.gap
     return hit
+
+
+def _confused(label: Alternatives, other: Alternatives, off: Floats, other_off: Floats) -> Bools:
+    """Return where a value or another one, which has its place, is nearer than `off` to the other's line."""
+    assert label.lines is not None
+    assert other.lines is not None
+    lines = other.lines[:, :1, 0]
+    mine: Bools = off_rects(label.places, label.size, lines)[:, :, 0] < off
+    return mine | (off_rects(other.places, other.size, label.lines[:, :, 0])[:, 0] < other_off)
+
+
+def _off_its_line(label: Alternatives) -> Floats:
+    """Return how far from each place of a value another dimension's line has to stay (n, k).
+
+    Its own line is nearer, by what an eye sees. 0 where the bar is its line.
+    """
+    assert label.lines is not None
+    lines = label.lines[:, :, 0]
+    own = off_rects(label.places.reshape(-1, 1), label.size, lines.reshape(-1, 1, 2)).reshape(lines.shape[:2])
+    return np.where(lines[..., 0] == lines[..., 1], 0.0, own + _NEARER)
 
 
 def _covered(label: Alternatives, ground: Obstacles) -> Floats:
