@@ -120,7 +120,7 @@ class ToleranceBand(Mode):
         times, joints = by / tolerance.by, scene.linkage.by_name
         edges = tuple(_edges(scene, off, times) for off in tolerance.quantities if off.name in joints)
         first, *others = (_in_words(scene, off, times) for off in tolerance.quantities)
-        most = said("chiefly by {dimension}", dimension=tolerance.most(tolerance.quantities[0]))
+        most = said("chiefly by {dimension}", dimension=name_said(tolerance.most(tolerance.quantities[0])))
         facts = said_as("list of clauses", "; ").join([most, *others])
         length = f"{significant(by, 3)} {scene.length_unit}"
         sentence = said("each length ± {length}: {effect}", length=length, effect=first)
