@@ -84,10 +84,9 @@ def _row(
         kept.remove(max(kept, key=lambda n: buttons[n].rank))
     cells: dict[int, Rect] = {}
     left = room.x + (room.width - _wide(buttons, kept) * side) / 2
-    for slot, n in enumerate(kept):
-        left += _before(buttons, kept, slot) * side
-        cells[n] = Rect(left, top, _width(buttons[n]) * side, side)
-        left += _width(buttons[n]) * side
+    for n, (gap, wide) in zip(kept, _spaced(buttons, kept), strict=True):
+        cells[n] = Rect(left + gap * side, top, wide * side, side)
+        left += (gap + wide) * side
     return cells
 
 
@@ -113,20 +112,19 @@ def _edge(layout: Layout) -> float:
     return 6.0 * layout.unit
 
 
-def _width(button: Button) -> float:
-    return 1.0 if button.share is None else _SLIDER
-
-
-def _before(buttons: Sequence[Button], kept: list[int], slot: int) -> float:
-    """Return the gap before a button, wider where a group has begun since the one before."""
-    if slot == 0:
-        return 0.0
-    since = buttons[kept[slot - 1] + 1 : kept[slot] + 1]
-    return _BETWEEN if any(one.leads for one in since) else _GAP
+def _spaced(buttons: Sequence[Button], kept: list[int]) -> list[tuple[float, float]]:
+    """Return the gap before each button, wider where a group has begun since the last, and its width."""
+    spaced, last = list[tuple[float, float]](), -1
+    for n in kept:
+        leads = any(one.leads for one in buttons[last + 1 : n + 1])
+        gap = (_BETWEEN if leads else _GAP) if spaced else 0.0
+        spaced.append((gap, 1.0 if buttons[n].share is None else _SLIDER))
+        last = n
+    return spaced
 
 
 def _wide(buttons: Sequence[Button], kept: list[int]) -> float:
-    return sum(_before(buttons, kept, slot) + _width(buttons[n]) for slot, n in enumerate(kept))
+    return sum(gap + wide for gap, wide in _spaced(buttons, kept))
 
 
 def _frames(
@@ -152,7 +150,7 @@ class BarPrinter:
     def __init__(self) -> None:
         self._type = letters()
         self._board: Board | None = None
-        self._kept: tuple[object, list[tuple[Rect, pygame.Surface, bool]]] | None = None
+        self._kept: tuple[object, list[tuple[Rect, pygame.Surface]], list[Target]] | None = None
         self._faces: dict[_Sized, pygame.Surface] = {}
 
     def draw(
@@ -166,16 +164,16 @@ class BarPrinter:
             if before.theme != theme:
                 self._faces.clear()
             self._board, self._kept = replace(before, layout=layout, theme=theme), None
-        cells = bar_cells(layout, bar.buttons)
         if self._kept is None or self._kept[0] != bar[:2]:
-            frames = _frames(layout, bar.buttons, cells)
-            sheets = [(frame, self._drawn(self._board, frame, cells, bar), on) for frame, on in frames]
-            self._kept = bar[:2], sheets
-        for frame, sheet, _ in self._kept[1]:
+            cells = bar_cells(layout, bar.buttons)
+            frames = [frame for frame, _ in _frames(layout, bar.buttons, cells)]
+            sheets = [(frame, self._drawn(self._board, frame, cells, bar)) for frame in frames]
+            buttons = (Target("button", cell, n) for n, cell in enumerate(cells) if cell)
+            self._kept = bar[:2], sheets, [*(Target("bar", frame) for frame in frames), *buttons]
+        for frame, sheet in self._kept[1]:
             sheet.set_alpha(round(255 * bar.eighths / 8))
             surface.blit(sheet, (round(frame.x), round(frame.y)))
-        places = (Target("bar", frame) for frame, *_ in self._kept[1])
-        return [*places, *(Target("button", cell, n) for n, cell in enumerate(cells) if cell)]
+        return self._kept[2]
 
     def _drawn(
         self, board: Board, frame: Rect, cells: Sequence[Rect | None], bar: CommandBar

@@ -284,8 +284,9 @@ def fittings(context: DrawContext) -> tuple[Fitting, ...]:
 
 def _fitted(joint: Joint, context: DrawContext) -> Iterator[Fitting]:
     """Yield what a joint adds by what slides: itself on lines, a pin in its own bar's slot, or both."""
-    own = [slide for slide in joint.slides if slide.point == joint.name]
-    others = [slide for slide in joint.slides if slide.point != joint.name]
+    slides = joint.slides
+    own = [slide for slide in slides if slide.point == joint.name]
+    others = [slide for slide in slides if slide.point != joint.name]
     if own and others:
         yield _yoke(own[0], others[0], context)
     elif others:

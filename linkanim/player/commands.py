@@ -118,12 +118,12 @@ def slides(state: State, number: int) -> bool:
 
 
 def _buttons(state: State) -> tuple[Button, ...]:
-    return tuple(_button(state, handle) for handle in _entries(state))
+    named = _names(state.keys)
+    return tuple(_button(state, handle, named[handle.action]) for handle in _entries(state))
 
 
-def _button(state: State, handle: BarEntry) -> Button:
-    action = handle.action
-    name, key = _called(state.keys, action)
+def _button(state: State, handle: BarEntry, named: tuple[str, str]) -> Button:
+    action, (name, key) = handle.action, named
     share = (state.clock.level - SLOWEST) / (FASTEST - SLOWEST) if action == SPEED else None
     icon = _ICONS[handle.icon](state) if handle.icon in _ICONS else handle.icon
     on = action in _ON and _ON[action](state)
@@ -131,15 +131,13 @@ def _button(state: State, handle: BarEntry) -> Button:
     return Button(icon, said(name), key, handle.rank, handle.leads, on, reason, share, handle.on_chart)
 
 
-@lru_cache(maxsize=256)
-def _called(mode: ModeKeys, action: Action) -> tuple[str, str]:
-    """Return a command's name and its key; for a group of commands, the group's name and their keys."""
-    if action == SPEED:
-        key = next(key for _, key, one in commands(mode) if one == action)
-        return "speed", "↑ ↓" if key else ""
-    if action.name == "menu" and action.value is not None:
-        return GROUPS[str(action.value)].title.lower(), group_key(str(action.value))
-    return next((words, key) for words, key, one in commands(mode) if one == action)
+@lru_cache(maxsize=32)
+def _names(mode: ModeKeys) -> Mapping[Action, tuple[str, str]]:
+    """Return the names and keys of a mode's commands; for a group of them, its name and their keys."""
+    groups = {Action("menu", name): (one.title.lower(), group_key(name)) for name, one in GROUPS.items()}
+    named = {action: (words, key) for words, key, action in commands(mode)}
+    speed = {SPEED: ("speed", "↑ ↓" if named[SPEED][1] else "")} if SPEED in named else {}
+    return {**named, **groups, **speed}
 
 
 def _meant(state: State, action: Action) -> Action:

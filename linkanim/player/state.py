@@ -974,14 +974,16 @@ class State:
     @property
     def keys(self) -> ModeKeys:
         """The keys that have a meaning of their own now."""
-        name = "lesson" if self.lesson and self.mode in ("play", "paused") else self.mode
-        return self.top.keys if self.top else next(one for one in OF_MODES if one.name == name)
+        if top := self.top:
+            return top.keys
+        name = "lesson" if self.lesson else self.mode
+        return next(one for one in OF_MODES if one.name == name)
 
     @property
     def mode(self) -> str:
         """What the keys are for, in a word."""
-        if self.top:
-            return self.top.keys.name
+        if top := self.top:
+            return top.keys.name
         return "paused" if self.clock.paused else "play"
 
     @property
