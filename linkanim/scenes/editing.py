@@ -254,9 +254,22 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     kept: dict[str, Any] = vars(scene)
     language = f"_dimensions_{spoken()}"
     if language not in kept:
-        found = numbers(scene.document) if scene.document else ()
+        found = _independent(scene) if scene.document else ()
         kept[language] = tuple(_dimension(number, scene) for number in found)
     return kept[language]  # type: ignore[no-any-return]
+
+
+def _independent(scene: Scene) -> Iterator[Number]:
+    """Yield the scene's numbers, but for places of moving points to which a stated length leads.
+
+    Such a point is moved to the nearest place that has its lengths, so its place is not what is written.
+    """
+    pairs = (pair for link in scene.document.get("lengths", {}).values() for pair in link)
+    ends = {end.strip() for pair in pairs for end in pair.split("-", 1)}
+    for number in numbers(scene.document):
+        place = number.key[0] == "points" and number.key[1] in ends
+        if not place or scene.linkage.joint(str(number.key[1])).fixed:
+            yield number
 
 
 def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:

@@ -265,7 +265,7 @@ def _with_lengths(top: Table, pose: PosedLinks, lengths: Mapping[str, Mapping[st
             places[name] += complex(step[2 * n], step[2 * n + 1])
         if abs(off).max() <= _NEAR * pose.size:
             return pose._replace(places=places, stated=stated)
-    raise table.wrong("no pose near the points has all of them; correct the points, or leave a length out")
+    raise table.wrong("no pose near the points has all these lengths; correct a point, or leave a length out")
 
 
 def _pair(table: Table, written: str, points: tuple[str, ...]) -> tuple[str, str]:
