@@ -13,7 +13,6 @@ import numpy as np
 
 from linkanim.atomic_files import checked_folder
 from linkanim.errors import RecordingFailed
-from linkanim.frozen import frozen
 from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
 from linkanim.picture.gears import teeth_a_second
@@ -50,16 +49,12 @@ _EARLY = 0.09
 """The share of its period at which the sheet shows a scene: off its limits, where links lie in line."""
 
 
-@frozen
-class Gallery:
-    """What was made: a GIF for each scene, and the sheet."""
-
-    recordings: tuple[Recording, ...]
-    sheet: Path
-
-
-def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None) -> Gallery:
+def make_gallery(
+    into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None
+) -> tuple[tuple[Recording, ...], Path]:
     """Record scenes by name into a folder as NAME.gif, by a NAME.tape.json if one is there, and the sheet.
+
+    Returns the GIFs, and the sheet's path.
 
     A GIF has the most frames a second, 25 to 10, that keep it within `LARGEST` bytes, and never so few that a
     gear's teeth seem to stand or to turn back. The folder is made where only it is missing. Each file appears
@@ -74,7 +69,7 @@ def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progre
     recordings = tuple(_kept(files, name, watch(name) if watch else None) for name in chosen)
     with replacing(files, [SHEET], others_go=False) as new:
         (new / SHEET).write_bytes(contact_sheet([load(name) for name in chosen]))
-    return Gallery(recordings, into / SHEET)
+    return recordings, into / SHEET
 
 
 def gallery_files(folder: Path) -> FileSet:

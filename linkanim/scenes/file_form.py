@@ -848,21 +848,15 @@ def _refuse_half(table: Table, values: Mapping[str, Any]) -> None:
         raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
 
 
-class DrawnBody(NamedTuple):
-    """A body as a file states it: what moves, and how it is drawn."""
-
-    body: Body
-    style: BodyStyle
-
-
 def _drawn(
     name: str,
     look: Outline | Block | None = None,
     colour: Any = None,
     radius: float | None = None,
     **known: Any,
-) -> DrawnBody:
-    return DrawnBody(Body(name, **known), BodyStyle(look, colour, radius))
+) -> tuple[Body, BodyStyle]:
+    """Return a body as a file states it: what moves, and how it is drawn."""
+    return Body(name, **known), BodyStyle(look, colour, radius)
 
 
 _MASS = Field("mass", MASS, "its mass", None, label="mass")

@@ -315,7 +315,7 @@ def read(
     document = top.values
     bodies = _part(top, "bodies") or {}
     parts = {
-        "linkage": _linkage(top, short, {name: one and one.body for name, one in bodies.items()}),
+        "linkage": _linkage(top, short, {name: one and one[0] for name, one in bodies.items()}),
         "title": _part(top, "title") if "title" in top else name,
         **{key: _part(top, key) for key in ("source", "chapter", "look_at", "notes")},
         "trace": _trace(top, short),
@@ -331,7 +331,7 @@ def read(
     purpose = _part(top, purposes[0]) if purposes else None
     if any(part is None for part in parts.values()):
         return None, top.context.problems
-    styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
+    styles = tuple((name, one[1]) for name, one in bodies.items() if one and one[1] != FREE_STYLE)
     parts |= {"purpose": purpose, "styles": styles, "document": document, "goal": goal}
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
     top.attempt(_check_assembly, top, scene, check)

@@ -81,11 +81,8 @@ class GearWheel(NamedTuple):
         return straight(cmath.rect(radius, turn + half) for turn in turns for radius, half in side)
 
 
-class Mesh(NamedTuple):
-    """Two wheels that roll on each other; the first one stands still where the second is a planet."""
-
-    first: GearWheel
-    second: GearWheel
+Mesh = tuple[GearWheel, GearWheel]
+"""Two wheels that roll on each other; the first one stands still where the second is a planet."""
 
 
 def meshes(linkage: Linkage, scale: float, module: float) -> Iterator[Mesh]:
@@ -125,7 +122,7 @@ def _spur(linkage: Linkage, crank: Crank, driver: Crank, scale: float, module: f
     angle = cmath.phase(apart)
     # A tooth of the first wheel points along its crank; where it meets the second, that has a gap.
     tooth = angle + math.pi + math.pi / teeth[1] - float(ratio) * angle - crank.gear.offset
-    return Mesh(
+    return (
         GearWheel(driver.pivot, driver.name, teeth[0], size, 0.0),
         GearWheel(crank.pivot, crank.name, teeth[1], size, tooth),
     )
@@ -152,7 +149,7 @@ def _planet(linkage: Linkage, crank: Crank, arm: Crank, scale: float, module: fl
     teeth, size = _teeth((large.numerator, large.denominator), scale * arm.length, module, ring=ring)
     tooth = -crank.gear.offset + (0.0 if ring else math.pi + math.pi / teeth[1])
     still = GearWheel(arm.pivot, None, teeth[0], size, 0.0, ring=ring)
-    return Mesh(still, GearWheel(crank.pivot, crank.name, teeth[1], size, tooth))
+    return still, GearWheel(crank.pivot, crank.name, teeth[1], size, tooth)
 
 
 def _teeth(

@@ -63,8 +63,8 @@ def test_blocks_join_without_a_seam(
     def joined(block: int) -> dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]]:
         monkeypatch.setattr(solved, "BLOCK", block)
         found = [
-            dict(leaves(part.result))
-            for part in blocks(scene, steps, by, 2.0, lambda x: scene.solve(**{by: x}, speed=2.0))  # type: ignore[arg-type]
+            dict(leaves(result))
+            for _, result in blocks(scene, steps, by, 2.0, lambda x: scene.solve(**{by: x}, speed=2.0))  # type: ignore[arg-type]
         ]
         return {key: np.concatenate([part[key] for part in found]) for key in found[0]}
 

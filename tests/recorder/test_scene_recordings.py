@@ -356,10 +356,10 @@ def test_the_gallery_is_small_whole_and_the_same_every_time(
     files = {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()}
     assert set(files) == {"crank-rocker.gif", "slider-crank.gif", gallery.SHEET, ".linkanim-gallery.json"}
     assert files == {path.name: path.read_bytes() for path in (tmp_path / "two").iterdir()}
-    assert [made.path.name for made in one.recordings] == ["crank-rocker.gif", "slider-crank.gif"]
-    assert {made.size for made in one.recordings} == {(192, 108)}
-    assert two.sheet == tmp_path / "two" / gallery.SHEET
-    with Image.open(one.sheet) as sheet:
+    assert [made.path.name for made in one[0]] == ["crank-rocker.gif", "slider-crank.gif"]
+    assert {made.size for made in one[0]} == {(192, 108)}
+    assert two[1] == tmp_path / "two" / gallery.SHEET
+    with Image.open(one[1]) as sheet:
         assert sheet.size == (4 * 198 + 6, 114 + 6)
         assert sheet.mode == "P"
 
@@ -379,9 +379,9 @@ def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", SIZE)
-    (largest,) = make_gallery(tmp_path, ["crank-rocker"]).recordings
+    (largest,), _ = make_gallery(tmp_path, ["crank-rocker"])
     monkeypatch.setattr(gallery, "LARGEST", largest.file_bytes - 1)
-    (smaller,) = make_gallery(tmp_path, ["crank-rocker"]).recordings
+    (smaller,), _ = make_gallery(tmp_path, ["crank-rocker"])
     assert (largest.frames, smaller.frames) == (60, 50)
     assert smaller.file_bytes < largest.file_bytes
 
@@ -394,14 +394,14 @@ def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
     monkeypatch.setattr(gallery, "SIZE", (160, 90))
     monkeypatch.setattr(gallery, "RATES", (5.0,))
     monkeypatch.setattr(gallery, "LARGEST", 0)
-    (large,) = make_gallery(tmp_path, ["kite"]).recordings
+    (large,), _ = make_gallery(tmp_path, ["kite"])
     monkeypatch.setattr(gallery, "MOST", large.file_bytes - 1)
-    (smaller,) = make_gallery(tmp_path, ["kite"]).recordings
+    (smaller,), _ = make_gallery(tmp_path, ["kite"])
     assert smaller.frames == large.frames
     with Image.open(smaller.path) as image:
         assert image.size == (128, 72)
     monkeypatch.setattr(gallery, "MOST", 0)
-    (smallest,) = make_gallery(tmp_path, ["kite"]).recordings
+    (smallest,) = make_gallery(tmp_path, ["kite"])[0]
     assert smallest.size == (80, 45)  # half as wide: the last share
 
 
@@ -422,7 +422,7 @@ def test_the_gallery_shows_no_wheel_turning_backwards() -> None:
 def test_the_gallery_takes_a_tape_where_there_is_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(gallery, "SIZE", SIZE)
     tape_file.write(tape((3, Action("theme")), frames=30, name="press"), tmp_path / "press.tape.json")
-    (made,) = make_gallery(tmp_path, ["press"]).recordings
+    (made,) = make_gallery(tmp_path, ["press"])[0]
     assert made.seconds == pytest.approx(0.5, abs=0.05)
 
 
@@ -456,7 +456,7 @@ def test_a_gallery_that_fails_on_the_way_keeps_what_it_finished_and_goes_on_the_
     with Image.open(tmp_path / "crank-rocker.gif") as image:
         assert image.size == (80, 45)
     assert (tmp_path / "slider-crank.gif").read_bytes() == slider
-    assert make_gallery(tmp_path, ["crank-rocker", "slider-crank"]).recordings[1].size == (80, 45)
+    assert make_gallery(tmp_path, ["crank-rocker", "slider-crank"])[0][1].size == (80, 45)
 
 
 def test_a_gallery_s_failure_is_named_by_the_file_that_was_to_be(

@@ -82,8 +82,7 @@ def test_teeth_touch_over_a_pitch_without_overlap(scene: Scene) -> None:
 @pytest.mark.parametrize("scene", CASES)
 def test_wheels_keep_the_centre_distance(scene: Scene) -> None:
     pose = scene.pose(0.4, 0)
-    for mesh in meshes(scene.linkage, 1.0, 2.0):
-        first, second = mesh
+    for first, second in meshes(scene.linkage, 1.0, 2.0):
         apart = math.dist(pose.position[first.centre], pose.position[second.centre])
         radii = first.radius - second.radius if first.ring else first.radius + second.radius
         assert radii == pytest.approx(apart, rel=1e-12)

@@ -9,8 +9,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from linkanim.cli.progress import advance
-from linkanim.recorder.gallery import Gallery, make_gallery
-from linkanim.recorder.recording import Progress
+from linkanim.recorder.gallery import make_gallery
+from linkanim.recorder.recording import Progress, Recording
 from linkanim.scenes import names
 
 
@@ -19,13 +19,13 @@ def run(options: Namespace) -> None:
 
     `BadInput` before any work where one of their names is taken by a file that is not ours.
     """
-    made = _recorded(options.into)
-    for recording in made.recordings:
+    recordings, sheet = _recorded(options.into)
+    for recording in recordings:
         print(recording.path)
-    print(made.sheet)
+    print(sheet)
 
 
-def _recorded(into: Path) -> Gallery:
+def _recorded(into: Path) -> tuple[tuple[Recording, ...], Path]:
     with tqdm(unit=" frames", leave=False, disable=None, file=sys.stderr) as drawn:
 
         def watch(name: str) -> Progress:

@@ -27,7 +27,7 @@ from linkanim.bounds import MOST_NUMBERS, MOST_NUMBERS_READ
 from linkanim.cli.options import EVERY_ANGLE, inputs_of
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns, csv_head, csv_rows, json_text, lines, mapped
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Linkage, Pin
 from linkanim.mechanics.measures import (
     DAMPER,
@@ -109,11 +109,8 @@ def rows(node: Tree) -> Iterator[Tree]:
     yield from (mapped(next, columns) for _ in node["phase"])
 
 
-class RowBlock(NamedTuple):
-    """Neighbouring rows: the inputs in degrees, and the tree of results; leaves are arrays (N,)."""
-
-    degrees: Leaf
-    result: Tree
+RowBlock = tuple[Leaf, Tree]
+"""Neighbouring rows: the inputs in degrees, and the tree of results; leaves are arrays (N,)."""
 
 
 @frozen
@@ -170,7 +167,7 @@ def blocks(
         }
         whole = _continued({**where, **tree(scene, motion)}, last)
         last = whole
-        yield RowBlock(steps.degrees(row, stop), _without(whole, shared))
+        yield steps.degrees(row, stop), _without(whole, shared)
 
 
 def _continued(result: Tree, last: Tree | None) -> Tree:
@@ -422,7 +419,7 @@ def run(options: Namespace) -> None:
     }
     head |= {"time": None} if inputs.steps else {}
     head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
-    trees = ({**head, **block.result} for block in results)
+    trees = ({**head, **block} for _, block in results)
     if options.json:
         _print_json(({**one, "coordinate": one[key]} for one in trees), inputs.steps is not None)
     else:
@@ -493,7 +490,7 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float | None, acceleration: flo
     if any(np.isnan(points).any() for points in motion.position.values()):
         raise _out_of_range(scene, at) if inputs.by != "travel" else _out_of_travel(scene, at)
     where = {input_key(scene): input_place(motion), "phase": motion.phase, inputs.by: value}
-    yield RowBlock(np.degrees(value), {**where, **tree(scene, motion)})
+    yield np.degrees(value), {**where, **tree(scene, motion)}
 
 
 def phase_at(scene: Scene, angle: float) -> float:
@@ -573,8 +570,8 @@ def _write_csv(target: FilePath | None, by: str, results: Iterator[RowBlock]) ->
         if target is not None:
             part = stack.enter_context(replacing(target))
             file = stack.enter_context(part.open("w", encoding="utf-8", newline=""))
-        for number, block in enumerate(results):
-            names, columns = zip(*leaves(block.result), strict=True)
+        for number, (degrees, result) in enumerate(results):
+            names, columns = zip(*leaves(result), strict=True)
             if number == 0:
                 file.write(csv_head([f"{by}_deg", *names]))
-            file.write(csv_rows([block.degrees, *columns]))
+            file.write(csv_rows([degrees, *columns]))
