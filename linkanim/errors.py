@@ -34,6 +34,10 @@ class AssemblyError(BadInput):
     """Lengths that cannot be assembled, or not as asked."""
 
 
+class DyadAtLimit(AssemblyError):
+    """A dyad before or behind links that are solved together comes to a limit: it belongs to them."""
+
+
 class OutOfRange(BadInput):
     """An input that the linkage cannot reach."""
 

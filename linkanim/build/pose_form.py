@@ -20,6 +20,7 @@ from linkanim.errors import BadInput
 from linkanim.mechanics.groups import GROUND, GroupLink, GroupSlide, LinkGroup, group_of
 from linkanim.mechanics.linkage import Line
 from linkanim.scenes.links import in_degrees, nearest
+from linkanim.scenes.reading import taken_together
 from linkanim.scenes.scene import Scene
 from linkanim.words import said
 
@@ -212,7 +213,7 @@ class _Apart:
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self.document = scene, scene.document
-        group = group_of(scene.linkage)
+        group = group_of(taken_together(scene).linkage)
         assert group
         self.group: LinkGroup = group
         self.base: dict[str, tuple[str, str]] = {}

@@ -262,7 +262,7 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     """Return the class of a linkage, `four_bar` being the loop that its input drives directly."""
     linkage = mechanism.linkage
     if group := group_of(linkage):
-        return group_name(group)
+        return group_name(linkage, group)
     dyads = [joint for joint in linkage.joints if joint.dyad]
     geared = any(crank.gear and not crank.gear.motor for crank in linkage.cranks)
     if linkage.motors and dyads:
@@ -295,18 +295,22 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     return said("{bars} linkage with slider", bars=bars) if slider else said("{bars} linkage", bars=bars)
 
 
-def group_name(group: LinkGroup) -> str:
-    """Name a linkage whose links are solved together by how many there are, and what they have.
+def group_name(linkage: Linkage, group: LinkGroup) -> str:
+    """Name a linkage with links that are solved together by how many there are, and what they have.
 
     A pin in a slot stands for a block that turns about it, which is a link.
     """
+    dyads = [joint for joint in linkage.joints if joint.dyad]
     cylinders = [slide for slide in group.slides if group.between(slide)]
     slots = any(slide.turns for slide in group.slides if slide not in cylinders)
+    slots = slots or any(joint.slides and not joint.travels for joint in dyads)
     sliders = any(not slide.turns for slide in group.slides if slide not in cylinders)
+    sliders = sliders or any(joint.travels for joint in dyads)
     geared, driven = (any(gear.motor == motor for gear in group.gears) for motor in (False, True))
-    has = zip(_HAS, (sliders, slots, bool(cylinders), geared, driven), strict=True)
+    geared = geared or any(crank.gear and not crank.gear.motor for crank in linkage.cranks)
+    has = zip(_HAS, (sliders, slots, bool(cylinders), geared, driven or bool(linkage.motors)), strict=True)
     parts = [said(word) for word, there in has if there]
-    bars = bars_named(len(group.members) + sum(slide.turns for slide in group.slides))
+    bars = bars_named(links_and_joints(linkage)[0])
     if not parts:
         return said("{bars} linkage", bars=bars)
     return said("{bars} linkage with {parts}", bars=bars, parts=said_as("list", " and ").join(parts))
@@ -322,6 +326,26 @@ _BARS = (
     to_say("nine-bar"),
     to_say("ten-bar"),
 )
+
+
+def links_and_joints(linkage: Linkage) -> tuple[int, int]:
+    """Return how many links, the ground among them, and joints there are.
+
+    A crank or a driven slider counts as one link and one joint, a dyad or a driving cylinder as two links
+    and three joints; a pin in a slot is a link, the block, that turns and slides.
+    """
+    group = group_of(linkage)
+    sliding = group is None and linkage.driven.joint.driven_slide is not None
+    cylinder = group is None and linkage.drive.actuator.along is not None
+    inputs = len(tuple(linkage.cranks)) + sliding
+    pairs = sum(joint.dyad for joint in linkage.joints) + cylinder
+    links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
+    if group:
+        slots = sum(slide.turns for slide in group.own_slides)
+        points = [name for one in group.free for name in one.points]
+        links += len([*group.free]) + slots
+        joints += len(points) - len({*points} & {*group.points}) + len(group.own_slides) + slots
+    return links, joints
 
 
 def bars_named(count: int) -> str:
@@ -654,22 +678,12 @@ class Info:
 
     @cached_property
     def counts(self) -> Counts:
-        """How many links, the ground among them, and joints there are, and the mobility by Grübler.
-
-        A crank or a driven slider counts as one link and one joint, a dyad or a driving cylinder as two links
-        and three joints; a pin in a slot is a link, the block, that turns and slides.
-        """
+        """How many links, the ground among them, and joints there are, and the mobility by Grübler."""
         linkage = self.mechanism.linkage
-        inputs = len(tuple(linkage.cranks)) + (linkage.driven.joint.driven_slide is not None)
-        pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
-        links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
+        links, joints = links_and_joints(linkage)
         meshes = sum(bool(crank.gear and not crank.gear.motor) for crank in linkage.cranks)
         if group := group_of(linkage):
-            slots = sum(slide.turns for slide in group.slides)
-            pins = {point for one in group.members for point in one.points}
-            links = len(group.members) + slots
-            joints = sum(len(group.at_point(point)) - 1 for point in pins) + len(group.slides) + slots
-            meshes = sum(not gear.motor for gear in group.gears)
+            meshes += sum(not gear.motor for gear in group.own_gears)
         return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
 
     @cached_property

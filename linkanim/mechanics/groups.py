@@ -86,7 +86,8 @@ class LinkGroup(Stated):
 
     `at` is the input's angle in the pose (rad), `crank` the crank's link: "" where a `motor` drives that is
     between two links of the group, or the slide named `driven`, whose travel is the input. `points` are
-    those that the group places, in the order of the linkage's joints.
+    those that the group places, in the order of the linkage's joints. It is held by the links `before` it,
+    which dyads place.
     """
 
     at: float
@@ -97,6 +98,7 @@ class LinkGroup(Stated):
     gears: tuple[GroupGear, ...] = ()
     motor: GroupMotor | None = None
     driven: str = ""
+    before: tuple[str, ...] = ()
 
     sized: ClassVar[tuple[str, ...]] = ("members",)
 
@@ -107,8 +109,25 @@ class LinkGroup(Stated):
 
     @property
     def free(self) -> Iterator[GroupLink]:
-        """The links whose motion the group gives: all but the ground and the crank."""
-        return (member for member in self.members if member.name not in (GROUND, self.crank))
+        """The links whose motion the group gives."""
+        return (one for one in self.members if one.name not in (GROUND, self.crank, *self.before))
+
+    @property
+    def moving(self) -> list[GroupLink]:
+        """All moving links but the crank, those before the group first."""
+        return [*(self.by_name[name] for name in self.before), *self.free]
+
+    @cached_property
+    def own_slides(self) -> tuple[GroupSlide, ...]:
+        """The slides of its own links."""
+        own = {one.name for one in self.free}
+        return tuple(slide for slide in self.slides if own & {slide.link, slide.on})
+
+    @cached_property
+    def own_gears(self) -> tuple[GroupGear, ...]:
+        """The gears of its own links."""
+        own = {one.name for one in self.free}
+        return tuple(gear for gear in self.gears if own & {*gear.links, gear.carrier})
 
     @property
     def driven_slide(self) -> GroupSlide | None:
@@ -164,8 +183,8 @@ class GroupPoint(Joint):
     @property
     def reacts(self) -> bool:
         """Whether every line of its group has an axis, and no block lies on two of them."""
-        blocks = [slide.link for slide in self.group.slides if not slide.turns]
-        return len({*blocks}) == len(blocks) and all(map(self.group.way, self.group.slides))
+        blocks = [slide.link for slide in self.group.own_slides if not slide.turns]
+        return len({*blocks}) == len(blocks) and all(map(self.group.way, self.group.own_slides))
 
     @property
     def driven_slide(self) -> Slide | None:
@@ -201,8 +220,14 @@ class GroupPoint(Joint):
 
     @property
     def needs(self) -> tuple[str, ...]:
-        """The joints before it on its links."""
-        return tuple(dict.fromkeys(start for start, _ in self.bars))
+        """The joints before it on its links; of the group's first one all that the group is held to."""
+        starts = [start for start, _ in self.bars]
+        if self.name == self.group.points[0]:
+            lines = (self.group.line(slide) for slide in self.group.own_slides)
+            held = [*(name for one in self.group.free for name in one.points)]
+            held += [name for line in lines if line for name in line.needs]
+            starts += [name for name in held if name not in self.group.points]
+        return tuple(dict.fromkeys(starts))
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -236,7 +261,7 @@ class GroupPoint(Joint):
     @property
     def slides(self) -> tuple[Slide, ...]:
         """Itself, along each line of a link on which it slides."""
-        own = (slide for slide in self.group.slides if slide.point == self.name)
+        own = (slide for slide in self.group.own_slides if slide.point == self.name)
         lines = (self.group.line(slide) for slide in own)
         return tuple(line.guiding(self.name) for line in lines if line)
 

@@ -197,7 +197,9 @@ def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
             several[joint.name].append(joint.name)
         if isinstance(joint, GroupPoint):
             slots = (
-                slide for slide in joint.group.slides if joint.name == joint.group.points[0] and slide.turns
+                slide
+                for slide in joint.group.own_slides
+                if joint.name == joint.group.points[0] and slide.turns
             )
             for slide in slots:
                 several[slide.point].append(link_member(linkage, joint.group.by_name[slide.on]))
@@ -529,7 +531,7 @@ def _constraints(
         for member in own[1:] if name in rest else own:
             for axis in ((1.0, 0.0), (0.0, 1.0)):
                 yield _at_pin(name, place, member, axis, rest, balance)
-    for slide in group.slides:
+    for slide in group.own_slides:
         along, place = _slid_along(slide, group, balance), balance.place(slide.point)
         normal, block, carrier = _turned_left(along), links[slide.link], links[slide.on]
         if slide.name == group.driven:
@@ -540,7 +542,7 @@ def _constraints(
         push, turn = _guiding(slide.point, block, carrier, place, normal, balance)
         yield push
         yield turn
-    for gear in (gear for gear in group.gears if not gear.motor):
+    for gear in (gear for gear in group.own_gears if not gear.motor):
         (one, other), carrier, ratio = (
             (links[name] for name in gear.links),
             links[gear.carrier],

@@ -126,6 +126,8 @@ LIMIT_SOLVED = 1e-34
 """A correction of a limit, in 38 digits, below which it is found."""
 AT_LIMIT = 2.0**-50
 """How far from a limit a stated end of the input may be, and be that limit, in lengths of the linkage."""
+APART = 1e-3
+"""How far from the ends of a group's path, in radians, the limits of a dyad beside it are at the least."""
 ONE_CLOSURE = 1e-6
 """What two solutions from different starts differ by, and are one closure."""
 SAME_POSE = 1e-9

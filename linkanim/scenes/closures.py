@@ -22,6 +22,7 @@ from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Joint, Linkage
 from linkanim.mechanics.motion import Mechanism, mechanism
 from linkanim.scenes.editing import closure_choices, replaced, with_document
+from linkanim.scenes.reading import taken_together
 from linkanim.scenes.scene import Scene
 from linkanim.units import angle, degrees
 
@@ -100,9 +101,11 @@ def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[
 def _in_other_poses(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[Scene, dict[str, str]]]:
     """Yield the scene of points in other poses: of its group, and for each of those of its dyads."""
     seeds = [scene]
-    if group_of(scene.linkage):
-        seeds += _valid(_posed(scene, pose) for pose in group_closures(scene.linkage)[1:])
-    dyads = [joint for joint in scene.linkage.joints if joint.dyad and not joint.grouped]
+    linkage = scene.linkage
+    if group_of(linkage):
+        linkage = taken_together(scene).linkage
+        seeds += _valid(_posed(scene, pose) for pose in group_closures(linkage)[1:])
+    dyads = [joint for joint in linkage.joints if joint.dyad]
     _refuse_many(len(dyads))
     ways = [*product(*([False, True] for _ in dyads))]
     for m, seed in enumerate(seeds):

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
@@ -581,44 +581,51 @@ class AsJoints(NamedTuple):
     group: tuple[GroupPoint, ...] = ()
 
 
-def as_joints(top: Table) -> AsJoints | None:
-    """Return the document of a file with [points] as one with [joints]; None where it has a fault."""
+def as_joints(top: Table, *, whole: bool = False) -> AsJoints | None:
+    """Return the document of a file with [points] as one with [joints]; None where it has a fault.
+
+    Dyads before and behind a group are closed as such; with `whole` they are solved together with it.
+    """
     pose = posed(top)
     drive, further = (top.attempt(SECTIONS[key].read, top) for key in ("drive", "drives"))
     if pose is None or drive is None or further is None or None in further.values():
         return None
-    return top.attempt(_as_joints, top, pose, drive, further)
+    return top.attempt(_as_joints, top, pose, drive, further, whole)
 
 
 def _as_joints(
-    top: Table, pose: PosedLinks, drive: Mapping[str, Any], further: Mapping[str, Any]
+    top: Table, pose: PosedLinks, drive: Mapping[str, Any], further: Mapping[str, Any], whole: bool
 ) -> AsJoints:
     motors = _further_motors(top, pose, drive, further)
     pose = pose._replace(gears=(*pose.gears, *motors))
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
-    group: tuple[GroupPoint, ...] = ()
     if "cylinder" in drive and not _turns_crank(pose, drive):
-        return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]))
+        return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]), whole=whole)
     if "slide" in drive and not (slide := _driving(top, pose, drive["slide"])).other(GROUND):
-        return _by_length(top, pose, slide)
+        return _by_length(top, pose, slide, whole=whole)
     if "slide" not in drive and (motor := _moving_motor(chain, drive)):
         driven = _by_moving_motor(chain, motor)
-        group = _group(chain, motor)
+        chain, group = _group(lambda: _Dyads(top, pose), whole=whole, motor=motor)
         return AsJoints(_document(top, pose, chain, driven), group)
     driven = _by_slide(chain, slide) if "slide" in drive else _by_motor(chain, drive)
     while chain.grow():
         pass
+    group = ()
     if not {*pose.places} <= chain.known:
         if "slide" in drive:
-            return _by_length(top, pose, slide)
+            return _by_length(top, pose, slide, whole=whole)
         if "cylinder" in drive:
-            return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]))
-        chain = _Dyads(top, pose)
-        driven = _by_motor(chain, drive)
-        while chain.points_of(next(iter(chain.turning))):
-            pass
-        group = _group(chain)
+            return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]), whole=whole)
+
+        def cranked() -> _Dyads:
+            chain = _Dyads(top, pose)
+            _by_motor(chain, drive)
+            while chain.points_of(next(iter(chain.turning))):
+                pass
+            return chain
+
+        chain, group = _group(cranked, whole=whole)
     if "slider" in driven:
         driven["slider"] = _travel(chain, driven["slider"])
     return AsJoints(_document(top, pose, chain, driven), group)
@@ -646,8 +653,18 @@ def _further_motors(
     return tuple(motors)
 
 
-def _group(chain: _Dyads, motor: GroupMotor | None = None, slide: str = "") -> tuple[GroupPoint, ...]:
-    """Return the joints of all links that the crank, a motor between two of them, or a slide moves."""
+def _group(
+    begun: Callable[[], _Dyads], *, whole: bool, motor: GroupMotor | None = None, slide: str = ""
+) -> tuple[_Dyads, tuple[GroupPoint, ...]]:
+    """Return the dyads and the joints of the group between them, which a crank, a motor or a slide drives.
+
+    `begun` returns what is known before any of them: the ground, and a driven crank.
+    """
+    chain = begun()
+    parts = _Parts(chain, motor.links if motor else (), slide)
+    known, own, head = {*chain.known}, parts.unknown(chain), set[str]()
+    if not whole and (apart := _apart(begun, parts)):
+        chain, known, own, head = apart
     pose = chain.pose
     if slide:
         crank, at = "", 0.0
@@ -664,16 +681,128 @@ def _group(chain: _Dyads, motor: GroupMotor | None = None, slide: str = "") -> t
             pose.stated.get(frozenset(points), 0.0) if len(points) == 2 else 0.0,
         )
         for name, points in pose.links.items()
+        if name in (GROUND, crank, *own, *head)
     )
-    slides = tuple(_group_slide(pose, slide) for slide in pose.slides)
+    there = {one.name for one in members}
+    sliding = (_group_slide(pose, slide) for slide in pose.slides)
+    slides = tuple(slide for slide in sliding if {slide.link, slide.on} <= there)
     gears = tuple(
-        GroupGear(gear.name, gear.links, gear.carrier, gear.ratio, bool(gear.motor)) for gear in pose.gears
+        GroupGear(gear.name, gear.links, gear.carrier, gear.ratio, bool(gear.motor))
+        for gear in pose.gears
+        if {*gear.links, gear.carrier} <= there
     )
-    points = tuple(name for name in _connected(chain) if name not in chain.known)
-    group = LinkGroup(at, crank, members, points, slides, gears, motor, slide)
-    blocks = {slide.point: slide.link for slide in slides if not slide.turns and group.line(slide)}
+    placed = {point for name in own for point in pose.links[name]} - known
+    points = tuple(name for name in _connected(pose, known) if name in placed)
+    before = tuple(name for name in pose.links if name in head and name != crank)
+    group = LinkGroup(at, crank, members, points, slides, gears, motor, slide, before)
+    own_slides = group.own_slides
+    blocks = {slide.point: slide.link for slide in own_slides if not slide.turns and group.line(slide)}
     chain.blocks |= {link: point for point, link in blocks.items()}
-    return tuple((GroupSlider if name in blocks else GroupPoint)(name, group) for name in points)
+    return chain, tuple((GroupSlider if name in blocks else GroupPoint)(name, group) for name in points)
+
+
+class _Around(NamedTuple):
+    """A group among dyads: these, what is known before the group, its links, and those that it hangs on."""
+
+    chain: _Dyads
+    known: set[str]
+    own: list[str]
+    before: set[str]
+
+
+def _apart(begun: Callable[[], _Dyads], parts: _Parts) -> _Around | None:
+    """Return the links from the first smallest group to the last one, and the dyads around them."""
+    own: set[str] = set()
+    while True:
+        chain = begun()
+        points, links = _grown(chain, parts)
+        head, known = parts.standing(chain), {*chain.known}
+        for name in own:
+            on = chain.pose.links[name]
+            chain.known |= {*on}
+            chain.blocks |= {name: on[0]} if len(on) == 1 else {}
+        while own and chain.grow():
+            pass
+        if {*parts.pose.places} <= chain.known:
+            before, waiting = set[str](), parts.held_by(own, points) & head
+            while waiting:
+                before |= waiting
+                waiting = {name for one in waiting for name in links.get(one, ())} - before
+            for name in own:
+                chain.blocks.pop(name, None)
+            return _Around(chain, known, [name for name in parts.pose.links if name in own], before)
+        more = parts.smallest(chain)
+        if not more:
+            return None
+        own |= (parts.standing(chain) - head if own else set()) | more
+
+
+def _grown(chain: _Dyads, parts: _Parts) -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+    """Add all dyads that follow; return for each point, and for each link, the links that give its place."""
+    standing = parts.standing(chain)
+    points = {point: {name} for name in standing for point in parts.pose.links[name]}
+    points |= {point: set() for point in parts.pose.links[GROUND]}
+    links: dict[str, set[str]] = {}
+    while chain.grow():
+        new = parts.standing(chain) - standing
+        links |= dict.fromkeys(new, new | parts.held_by(new, points) & standing)
+        standing |= new
+        for name in new or standing:
+            for point in parts.pose.links[name]:
+                points.setdefault(point, new or {name})
+    return points, links
+
+
+_MOST_APART = 14
+"""The most links among which a smallest group is looked for."""
+
+
+class _Parts:
+    """The links of a pose by what holds them to each other, and a motor between two of them or on a slide."""
+
+    def __init__(self, chain: _Dyads, motor: tuple[str, ...], slide: str) -> None:
+        self.pose, pose = chain.pose, chain.pose
+        # what takes so much freedom from links, once all its links are there
+        self.held: list[tuple[set[str], int]] = [({*gear.links, gear.carrier}, 1) for gear in pose.gears]
+        self.held += [({*motor}, 1)] if motor else []
+        for one in pose.slides:
+            ends = _group_slide(pose, one)
+            self.held.append(({ends.link, ends.on}, (2 if one.link else 1) + (one.name == slide)))
+
+    def standing(self, chain: _Dyads) -> set[str]:
+        """Return the links whose places are known."""
+        return {name for name in self.pose.links if chain.stands(name)}
+
+    def unknown(self, chain: _Dyads) -> list[str]:
+        """Return the links whose places are not known."""
+        return [name for name in self.pose.links if not chain.stands(name)]
+
+    def held_by(self, links: set[str], givers: Mapping[str, set[str]]) -> set[str]:
+        """Return the moving links by which these are held, the crank among them."""
+        points = (point for link in links for point in self.pose.links[link])
+        found = {name for point in points for name in givers.get(point, ())}
+        found |= {name for held, _ in self.held if held & links for name in held}
+        return found - {GROUND}
+
+    def smallest(self, chain: _Dyads) -> set[str]:
+        """Return the fewest links that what is known holds, all together; empty where there are none."""
+        unknown, known = self.unknown(chain), self.standing(chain)
+        if len(unknown) > _MOST_APART:
+            return set()
+        for count in range(2, len(unknown) + 1):
+            for links in map(set, combinations(unknown, count)):
+                if self._freedom(links, known, chain.known) == 0:
+                    return links
+        return set()
+
+    def _freedom(self, links: set[str], known: set[str], placed: set[str]) -> int:
+        there, free = links | known, 3 * len(links)
+        points: dict[str, int] = {}
+        for link in links:
+            for point in self.pose.links[link]:
+                points[point] = points.get(point, 0) + 1
+        free -= sum(2 * (count if point in placed else count - 1) for point, count in points.items())
+        return free - sum(takes for held, takes in self.held if held & links and held <= there)
 
 
 def _group_slide(pose: PosedLinks, slide: PosedSlide) -> GroupSlide:
@@ -687,9 +816,9 @@ def _group_slide(pose: PosedLinks, slide: PosedSlide) -> GroupSlide:
     return GroupSlide(slide.name, own, point, slide.on, start, slide.angle, turns)
 
 
-def _connected(chain: _Dyads) -> list[str]:
-    """Return the points, each link's one after the other, from the crank's and the ground's outwards."""
-    pose, reached = chain.pose, dict.fromkeys(name for name in chain.pose.places if name in chain.known)
+def _connected(pose: PosedLinks, known: set[str]) -> list[str]:
+    """Return the points, each link's one after the other, from those that are known outwards."""
+    reached = dict.fromkeys(name for name in pose.places if name in known)
     waiting = dict(pose.links)
     while waiting:
         held = {name: sum(point in reached for point in points) for name, points in waiting.items()}
@@ -856,12 +985,12 @@ def _with_cylinder(top: Table, pose: PosedLinks, ends: tuple[str, str]) -> tuple
     return pose._replace(links=links, slides=(*pose.slides, slide)), slide
 
 
-def _by_length(top: Table, pose: PosedLinks, slide: PosedSlide) -> AsJoints:
+def _by_length(top: Table, pose: PosedLinks, slide: PosedSlide, *, whole: bool) -> AsJoints:
     """Return the document of links that are solved together and driven by a slide, or a cylinder."""
-    chain, table = _Dyads(top, pose), top.table("drive")
+    table = top.table("drive")
     if "start" in table:
         raise table.error("start", "is that of a crank, but a length drives these links; leave it out")
-    group = _group(chain, slide=slide.name)
+    chain, group = _group(lambda: _Dyads(top, pose), whole=whole, slide=slide.name)
     driven = next((one for one in group if one.driven_slide), None)
     if driven is None:
         way_out = f"give {slide.on} a second point, or let the slide's line run through its own"

@@ -19,7 +19,7 @@ from typing import Any
 
 from linkanim import units
 from linkanim.bounds import MOST_PROBLEMS
-from linkanim.errors import AssemblyError, BadInput
+from linkanim.errors import AssemblyError, BadInput, DyadAtLimit
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.groups import GroupPoint
@@ -110,7 +110,7 @@ def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> Table:
     for name in moving:
         joint = stated[name]
         stated[name] = joint and top.attempt(_with_fit_references, top, joint, stated)
-    order = _solved_order(stated)
+    order = _with_group_together(stated, _solved_order(stated))
     if len(order) < len(stated):
         first, *others = _circle(stated, stated.keys() - set(order))
         chain = " -> ".join([first, *others[:12], *["..."] * (len(others) > 12)])
@@ -123,7 +123,7 @@ def _together(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> dic
     """Return all joints, pins given by coordinates first, as TOML writers order tables."""
     listed = sorted(pins, key=lambda name: isinstance(top.values["ground"][name], Mapping))
     stated = dict(expanded)
-    own = {name: pins[name] for name in listed if not (name == "O2" and expanded)}
+    own = {name: pins[name] for name in listed if not (name == "O2" and name in expanded)}
     for section, added in (("ground", own), ("joints", moving)):
         for name, joint in added.items():
             if name in stated:
@@ -193,6 +193,18 @@ def _solved_order(stated: Stated) -> list[str]:
         order[ready] = None
         del waiting[ready]
     return list(order)
+
+
+def _with_group_together(stated: Stated, order: list[str]) -> list[str]:
+    """Return the order with the joints of a group one after the other, and then what hangs on them."""
+    points = (joint.group.points for joint in stated.values() if isinstance(joint, GroupPoint))
+    group = [name for name in next(points, ()) if name in order]
+    behind = {*group}
+    for name in order:
+        if (joint := stated[name]) and not joint.grouped and behind & {*joint.needs}:
+            behind.add(name)
+    before = [name for name in order if name not in behind]
+    return [*before, *group, *(name for name in order if name in behind and name not in group)]
 
 
 def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:
@@ -290,6 +302,13 @@ def scene_from(
     return scene
 
 
+def taken_together(scene: Scene) -> Scene:
+    """Return a scene with a group with all its links but the crank in that, not put together."""
+    found, _ = read(scene.document, name=scene.name, where=scene.name, together=True)
+    assert found
+    return found
+
+
 def read(
     document: Mapping[str, Any],
     *,
@@ -298,19 +317,22 @@ def read(
     goal: Scene | None = None,
     check: Check | None = None,
     group: tuple[GroupPoint, ...] = (),
+    together: bool = False,
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene that a document describes, None where it describes none, and all its problems.
 
-    `group` are joints that no table says, behind those of the document.
+    `group` are joints that no table says. Of points and links that are no chain of dyads all are solved
+    `together` where dyads before or behind the group come to their limits; or where that is asked for: then
+    the scene is not put together.
 
     Problems that only follow from others are left out: of things that depend on a joint with a fault only
     their own table is checked, and the assembly is checked only where every joint is sound.
     """
     top = _opened(document, where, group)
     if any(key in top for key in POSE_KEYS):
-        return _read_points(top, name=name, goal=goal, check=check)
-    top, short = _with_joints(top)
-    top = top.attempt(_with_motors, _with_group(top, group), short) or top
+        return _read_points(top, name=name, goal=goal, check=check, together=together)
+    top, short = _with_joints(top, group)
+    top = top.attempt(_with_motors, top, short) or top
     top = top.attempt(_in_usual_form, top, short) or top
     document = top.values
     bodies = _part(top, "bodies") or {}
@@ -334,7 +356,8 @@ def read(
     styles = tuple((name, one[1]) for name, one in bodies.items() if one and one[1] != FREE_STYLE)
     parts |= {"purpose": purpose, "styles": styles, "document": document, "goal": goal}
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
-    top.attempt(_check_assembly, top, scene, check)
+    if not together:
+        top.attempt(_check_assembly, top, scene, check)
     return scene, top.context.problems
 
 
@@ -397,7 +420,7 @@ def _nearer_side(top: Table, joint: RRR | RRP, short: Expansion) -> int:
 
 
 def _read_points(
-    top: Table, *, name: str, goal: Scene | None, check: Check | None
+    top: Table, *, name: str, goal: Scene | None, check: Check | None, together: bool
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene of a file with points and links, as `read` does."""
     problems = top.context.problems
@@ -411,11 +434,16 @@ def _read_points(
             problems.append(top.error(key, f"does not go with [points]; {way_out}"))
     from linkanim.scenes.links import as_joints
 
-    as_joints_document = None if problems else as_joints(top)
-    if as_joints_document is None:
-        return None, problems
-    document, group = as_joints_document
-    scene, further = read(document, name=name, where=top.where, goal=goal, check=check, group=group)
+    for whole in (True,) if together else (False, True):
+        as_joints_document = None if problems else as_joints(top, whole=whole)
+        if as_joints_document is None:
+            return None, problems
+        document, group = as_joints_document
+        scene, further = read(
+            document, name=name, where=top.where, goal=goal, check=check, group=group, together=together
+        )
+        if not any(isinstance(error, DyadAtLimit) for error in further):
+            break
     if scene and group:
         scene = replace(scene, document=top.values)
     return scene, [*problems, *(_of_points(error, top.where) for error in further)]
@@ -459,14 +487,6 @@ def _with_motors(top: Table, short: Expansion) -> Table:
     return replace(top, context=context)
 
 
-def _with_group(top: Table, group: tuple[GroupPoint, ...]) -> Table:
-    """Return the file's table with the joints of a group known."""
-    if not group:
-        return top
-    joints = {**top.context.joints, **{point.name: point for point in group}}
-    return replace(top, context=replace(top.context, joints=joints, rigid=rigid_bodies(joints.values())))
-
-
 def _opened(document: Mapping[str, Any], where: str, group: tuple[GroupPoint, ...] = ()) -> Table:
     """Return the file's table with its unit and its joints' names known; add unknown keys to the problems."""
     top = Table(where, document)
@@ -492,8 +512,8 @@ def _shorthand_names(top: Table) -> list[str]:
     return [name for key, table in tables for name in names_of(key, table)]
 
 
-def _with_joints(top: Table) -> tuple[Table, Expansion]:
-    """Return the file's table with its sound joints known, and its shorthand's meaning."""
+def _with_joints(top: Table, group: tuple[GroupPoint, ...]) -> tuple[Table, Expansion]:
+    """Return the file's table with its sound joints and a group's known, and its shorthand's meaning."""
     pins = _part(top, "ground") or {}
     short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
     moving = _part(top, "joints") or {}
@@ -504,6 +524,7 @@ def _with_joints(top: Table) -> tuple[Table, Expansion]:
     expanded: dict[str, Joint | None] = dict.fromkeys(_shorthand_names(top))
     if short:
         expanded = {joint.name: joint for joint in short.joints}
+    expanded |= {point.name: point for point in group}
     return solved(top, expanded, pins, moving), short or Expansion()
 
 
@@ -575,6 +596,8 @@ def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
         if check:
             check(scene)
         _ = scene.mechanism
+    except DyadAtLimit:
+        raise
     except AssemblyError as error:
         section = next((key for key in SHORTHANDS if key in top), "joints")
         raise unassembled(top.table(section), str(error)) from None

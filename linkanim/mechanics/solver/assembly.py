@@ -9,18 +9,18 @@ from dataclasses import replace
 import numpy as np
 
 from linkanim.bounds import MOST_DYAD_TURNS, MOST_GEARED_TURNS, MOST_TURNS
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, DyadAtLimit
 from linkanim.mechanics.arithmetic import Constant, Graph, MovingPoint, Slope, Value
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import batch
 from linkanim.mechanics.solver.closing import CLOSERS, Assembly, refuse_loose, walk_at
-from linkanim.mechanics.solver.courses import followed_course
+from linkanim.mechanics.solver.courses import BY_ANGLE, followed_course
 from linkanim.mechanics.solver.input import InputPath, Swing, Turn
 from linkanim.mechanics.solver.loop import Gearing, Loop, arcs_of, gearings, open_arcs
 from linkanim.mechanics.solver.signed_root import Kind
 from linkanim.mechanics.solver.strokes import STROKES
-from linkanim.mechanics.tolerances import JUST_AFTER, OWN_LIMIT
+from linkanim.mechanics.tolerances import APART, JUST_AFTER, OWN_LIMIT
 
 
 def assemble(linkage: Linkage) -> Assembly:
@@ -29,14 +29,29 @@ def assemble(linkage: Linkage) -> Assembly:
     linkage = linkage.near
     scale = _scale(linkage)
     scaled = linkage if scale == 1.0 else linkage.scaled(scale)
+    loops = find_loops(scaled, gearings(scaled))
+    arcs = open_arcs(linkage, loops)
+    paths: tuple[InputPath, ...] = ()
+    course = None
     if group_of(scaled):
         path, course = followed_course(scaled, 1.0 / scale)
-        return Assembly(scaled, {}, path, {}, 1.0 / scale, course=course)
-    loops = find_loops(scaled, gearings(scaled))
+        paths = () if course.by == BY_ANGLE else (_within(arcs, path),)
+    turns = course.turns if course and not paths else 1
     return _named(
-        Assembly(scaled, loops, path, {}, 1.0 / scale)
-        for path in _paths(scaled, loops, open_arcs(linkage, loops), 1.0 / scale)
+        Assembly(scaled, loops, path, {}, 1.0 / scale, course=course)
+        for path in paths or _paths(scaled, loops, arcs, 1.0 / scale, turns)
     )
+
+
+def _within(arcs: list[Swing] | None, path: InputPath) -> InputPath:
+    """Return the path of a group; DyadAtLimit where a loop on its crank's pin does not leave it all of it."""
+    if arcs is None:
+        return path
+    low, high = path.input_range
+    around = (arc.shifted(arc.turns_to((low + high) / 2)) for arc in arcs)
+    if any(float(arc.low) < low - APART and high + APART < float(arc.high) for arc in around):
+        return path
+    raise DyadAtLimit("a dyad leaves the input less room than the links that are solved together")
 
 
 def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop]:
@@ -81,15 +96,15 @@ def _scale(linkage: Linkage) -> float:
 
 
 def _paths(
-    linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Swing] | None, unscale: float
+    linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Swing] | None, unscale: float, turns: int
 ) -> Iterator[InputPath]:
-    """Yield the paths the input may take, the best one first."""
+    """Yield the paths the input may take, the best one first; a group is back after so many `turns`."""
     stroke = STROKES.get(type(linkage.drive.actuator))
     if stroke is not None:
         yield replace(stroke(linkage, unscale, arcs), keeps=(linkage.drive.retraced,) * 2)
         return
     if arcs is None:
-        yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
+        yield Turn(linkage.drive.start, turns_to_return(linkage, loops, turns))
         return
     start = linkage.drive.stated_start
     for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage, loops)):
@@ -142,8 +157,8 @@ def runs_back(linkage: Linkage, name: str, loop: Loop) -> bool:
     return loop.ground is not None and first != loop.crank.pivot
 
 
-def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:
-    """Return after how many turns of the input every joint is back.
+def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop], own: int = 1) -> int:
+    """Return after how many turns of the input every joint is back; a group is after its `own` turns.
 
     A crank geared p/q needs q turns; a loop with one change point needs its half angle to return.
     AssemblyError where that is longer than can be looked at.
@@ -154,7 +169,7 @@ def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:
         kinds = (loop.root.u.kind, loop.root.w.kind)
         if kinds.count(Kind.CHANGE_POINT) == 1:
             counts.append((loop.gearing.ratio / 2).denominator)
-    turns = math.lcm(*counts)
+    turns = math.lcm(own, *counts)
     if turns > (most := most_turns(linkage)):
         geared = [f"{name} ({gears[name].ratio})" for name in gears if gears[name].ratio.denominator > 1]
         raise AssemblyError(

@@ -19,7 +19,7 @@ from itertools import accumulate
 from operator import mul
 from typing import Any
 
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, DyadAtLimit
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import (
     Half,
@@ -1031,9 +1031,11 @@ def yoke_name(joint: RPP, assembly: Assembly) -> str:
 def place_group(point: GroupPoint, walk: Walk) -> None:
     """Add all points of a group and all of its links, by the polynomials of its course."""
     course, group = walk.assembly.course, point.group
+    if walk.exact:
+        raise DyadAtLimit(f"joint {point.name}: it is not known to fifty digits, which a dyad's limit needs")
     if point.name in walk.points or course is None:
         return
-    read = reader(course, walk.state, walk.assembly.path)
+    read = reader(course, walk.state, walk.assembly.path, walk.linkage.drive.start)
     placed = {name.rpartition(".")[0] for name in course.coefficients if name.endswith(".x")}
     for name in group.points:
         if name in placed:
@@ -1053,7 +1055,7 @@ def place_group(point: GroupPoint, walk: Walk) -> None:
             turn = way.position.cross(way.velocity) / square
             bent = way.position.cross(way.acceleration) / square
             walk.add_piece(Slope(turn, bent), (first, second), way.position)
-    for slide in group.slides:
+    for slide in group.own_slides:
         walk.travels[slide.point] = read(slide.name)
 
 

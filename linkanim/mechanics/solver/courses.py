@@ -116,22 +116,25 @@ class PathBranch(NamedTuple):
     tangent: Array
 
 
+BY_PHASE, BY_ANGLE, BY_LENGTH = range(3)
+
+
 class InputRoute(NamedTuple):
     """The path of the input, and the branches of the closure on it: one, or one each way.
 
-    Of an input that turns back `ends` are where it is at the phases 0 and π. `by_travel` its polynomials are
-    those of a travel instead of the phase: that from -π at one end to π at the other.
+    Of an input that turns back `ends` are where it is at the phases 0 and π. Its polynomials are `by` the
+    phase, by the input's angle from its start, or by a length: that from -π at one end to π at the other.
     """
 
     path: InputPath
     branches: tuple[PathBranch, ...]
     ends: tuple[int, int] | None = None
-    by_travel: bool = False
+    by: int = BY_PHASE
 
     @property
     def returns(self) -> bool:
         """Whether the phases below zero have the poses of those above."""
-        return len(self.branches) == 1 and self.ends is not None and not self.by_travel
+        return len(self.branches) == 1 and self.by == BY_PHASE
 
 
 class LimitedPath(NamedTuple):
@@ -156,7 +159,7 @@ def route_of(linkage: Linkage, system: LinkEquations, unscale: float) -> InputRo
     assert group is not None
     if not circuit.limits:
         whole = PathBranch(*_closed(system, circuit))
-        return InputRoute(Turn(drive.start, round(circuit.change / math.tau)), (whole,))
+        return InputRoute(Turn(drive.start, round(circuit.change / math.tau)), (whole,), by=BY_ANGLE)
     around = limited(system, circuit)
     both = around.limits == 2 and not around.turns and not drive.retraced
     lower, upper = (_sum(limit.y[-1]) for limit in (around.low, around.high))
@@ -214,7 +217,7 @@ def _stroke_route(linkage: Linkage, system: LinkEquations, unscale: float) -> In
             return InputRoute(stroke, (around.up, around.down), turned)
     at_limit = low is not None or high is not None
     kept = replace(stroke, keeps=(back or at_limit,) * 2)
-    return InputRoute(kept, (branch,), turned, by_travel=not at_limit)
+    return InputRoute(kept, (branch,), turned, by=BY_PHASE if at_limit else BY_LENGTH)
 
 
 def _way_to(
@@ -292,12 +295,12 @@ class GroupMotion:
     """The motion of a group over its period: for each coordinate a table of each coefficient.
 
     `bins` equal parts of the period, from minus half of it, each have a piece's number. It is a period of the
-    phase or, `by_travel`, the way of a length from one end to the other. `derived` points lie
-    on links with two points known: at their first plus ζ times the way to the second.
+    phase, or of the angle from the start, or the way of a length between its ends. `derived` points lie on
+    links with two points known: at their first plus ζ times the way to the second.
     """
 
     turns: int
-    by_travel: bool
+    by: int
     bins: int
     piece: LookUp
     centres: LookUp
@@ -330,9 +333,10 @@ def carriers(
     linkage: Linkage, group: LinkGroup
 ) -> tuple[dict[str, tuple[int, str]], dict[str, tuple[tuple[str, str], complex]]]:
     """Return the points whose coordinates are kept, each with a link and its number, and the derived ones."""
-    moving = [group.crank] * bool(group.crank) + [member.name for member in group.free]
+    moving = [group.crank] * bool(group.crank) + [member.name for member in group.moving]
     numbers = {name: n for n, name in enumerate(moving)}
-    known = [joint.name for joint in linkage.joints if joint.name not in group.points]
+    names = [joint.name for joint in linkage.joints]
+    known = names[: names.index(group.points[0])]
     placed: dict[str, tuple[int, str]] = {}
     derived: dict[str, tuple[tuple[str, str], complex]] = {}
     waiting = list(group.points)
@@ -400,7 +404,7 @@ class _Fit:
                 if _is_close(piece):
                     pieces.append(piece)
                 elif piece.depth == _FINEST:
-                    raise AssemblyError(_TOO_NEAR[self.route.by_travel])
+                    raise AssemblyError(_TOO_NEAR[self.route.by == BY_LENGTH])
                 else:
                     waiting += [(piece.depth + 1, 2 * piece.part + n) for n in (0, 1)]
         if self.route.returns:
@@ -472,7 +476,7 @@ class _Fit:
             return np.asarray((phases + first - begin) % span + begin, np.object_)
         assert self.route.ends is not None
         low, high = self.route.ends
-        if self.route.by_travel:
+        if self.route.by == BY_LENGTH:
             return np.asarray((low + high) // 2 + (high - low) * phases // (2 * PI_WHOLE), np.object_)
         cosine, _ = units_of(phases)
         return np.asarray((low + high) // 2 - ((high - low) // 2 * cosine >> BITS), np.object_)
@@ -589,7 +593,7 @@ def _course(
     shares = LookUp([1.0 / one for one in halves])
     return GroupMotion(
         period,
-        route.by_travel,
+        route.by,
         1 << depth,
         LookUp([*map(float, bins)]),
         LookUp(centres),
@@ -599,12 +603,15 @@ def _course(
     )
 
 
-def reader(course: GroupMotion, state: InputState, path: InputPath) -> Callable[[str], Moving]:
-    """Return what reads a quantity of a course, with its rates, where the input is in a state."""
-    if course.by_travel:
+def reader(course: GroupMotion, state: InputState, path: InputPath, start: float) -> Callable[[str], Moving]:
+    """Return what reads a quantity of a course, with its rates, where the input is in a state.
+
+    `start` is the angle of the input's start.
+    """
+    if course.by == BY_LENGTH:
         near, pace = _gone(state, path)
     else:
-        phase, rest, pace = _phase(state, path)
+        phase, rest, pace = _from_start(state, start) if course.by == BY_ANGLE else _phase(state)
         _, near = reduced(phase, rest, 2.0 * course.turns)
     half = course.turns * math.pi
     place = rint(near * (course.bins / (2 * half)) + (course.bins / 2 - 0.5))
@@ -636,13 +643,16 @@ def _gone(state: InputState, path: InputPath) -> tuple[Value, Slope]:
     )
 
 
-def _phase(state: InputState, path: InputPath) -> tuple[Value, Value, Slope]:
+def _from_start(state: InputState, start: float) -> tuple[Value, Value, Slope]:
+    """Return the input's angle from its start, what the float lacks of it, and its pace."""
+    angle, rest = two_sum(state.angle, float(state.origin - exact_angle(start)))
+    return angle, rest, Slope(state.rate, state.second)
+
+
+def _phase(state: InputState) -> tuple[Value, Value, Slope]:
     """Return the phase of an input's state, what the float lacks of it, and its pace."""
     if isinstance(state, TravelState):
         return state.angle, 0.0, state.pace
-    if isinstance(path, Turn):
-        phase, rest = two_sum(state.angle, float(state.origin - exact_angle(path.start)))
-        return phase, rest, Slope(state.rate, state.second)
     assert state.ends is not None
     if state.phase is not None:
         return state.phase, 0.0, state.phase_pace

@@ -400,7 +400,7 @@ def system_of(linkage: Linkage) -> LinkEquations:
     longest = max(abs(complex(*place)) for one in group.members for place in one.places)
     shrunk = math.ldexp(1.0, -math.frexp(longest)[1])
     frames = tuple(_frames(linkage, group, Fraction(shrunk)))
-    count = len([*group.free])
+    count = len(group.moving)
     if count > MOST_LINKS:
         raise AssemblyError(
             f"{count} links have to be solved together, and {MOST_LINKS} are the most here;"
@@ -425,7 +425,7 @@ def system_of(linkage: Linkage) -> LinkEquations:
 def _frames(linkage: Linkage, group: LinkGroup, shrunk: Fraction) -> Iterable[LinkFrame]:
     if group.crank:
         yield _crank_frame(linkage, group, shrunk)
-    for member in group.free:
+    for member in group.moving:
         first = member.places[0]
         origin, angle = complex(*first) * float(shrunk), 0.0
         if member.length:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.bounds import MOST_CHANGE_POINTS
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, DyadAtLimit
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import FULL_TURN, Sum
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
@@ -42,9 +42,9 @@ from linkanim.mechanics.solver.closing import (
     Touch,
     Walk,
     walk_at,
-    walked,
     walking,
 )
+from linkanim.mechanics.solver.courses import BY_ANGLE
 from linkanim.mechanics.solver.input import InputPath, Limit, Swing, swing_by_angle
 from linkanim.mechanics.solver.loop import ONE_PLACE
 from linkanim.mechanics.tolerances import (
@@ -130,6 +130,14 @@ class ExactWalk:
         while name not in closings:
             next(self._steps)
         return closings[name]
+
+
+def closing_of(name: str, walk: Walk) -> Closing:
+    """Return what closes a dyad, from a walk as far as to it."""
+    steps = walking(walk)
+    while name not in walk.closings:
+        next(steps)
+    return walk.closings[name]
 
 
 def refining(exact: ExactWalk, name: str) -> Callable[[Sum], Sum]:
@@ -363,7 +371,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
     state = swing_by_angle((v - u, u, v), Slope(0.0), path.low, path.high)
-    run = decimals(("u", "v"), _outputs(walked(precise(assembly), state).closings[name])[:1])
+    run = decimals(("u", "v"), _outputs(closing_of(name, Walk(precise(assembly), state)))[:1])
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 
     def sampled(way: Decimal) -> Sample:
@@ -813,6 +821,10 @@ def restricted(assembly: Assembly, linkage: Linkage, apart: Separations) -> Asse
     if not apart.names:
         return assembly
     closes = apart.closes
+    if assembly.course and assembly.course.by != BY_ANGLE:
+        if not closes or any(map(apart.touches, apart.names)):
+            raise DyadAtLimit("a dyad comes to a limit on the path of the links that are solved together")
+        return fitted(assembly)
     whole, on_whole = through_change_points(assembly, apart)
     if closes and (whole is assembly or _runs_through(whole, on_whole)):
         return fitted(whole)
