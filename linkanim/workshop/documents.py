@@ -17,6 +17,7 @@ from linkanim.picture.items import Caption, Item
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import cut, segments, stroke
 from linkanim.picture.text import subscripted
+from linkanim.words import said
 from linkanim.workshop.made import MadeLinkage, MadePin
 from linkanim.workshop.nesting import FOOT, MARGIN, Laid, Oversize, nested
 from linkanim.workshop.parts import Plate
@@ -218,9 +219,9 @@ def dxf(made: MadeLinkage) -> str:
         lean = math.degrees(math.atan2(turn.imag, turn.real))
         words = [(part.label, part.at, min(0.3 * made.sizes.bar, part.room))] if part.label else []
         words += [(text, place, _LETTERED * made.sizes.bar) for text, place in part.letters]
-        for said, own, size in words:
+        for text_shown, own, size in words:
             place = at + turn * own
-            text = space.add_text(said, height=size, rotation=lean, dxfattribs={"layer": "ENGRAVE"})
+            text = space.add_text(text_shown, height=size, rotation=lean, dxfattribs={"layer": "ENGRAVE"})
             text.set_placement((place.real, place.imag), align=TextEntityAlignment.MIDDLE_CENTER)
     written = StringIO()
     drawing.write(written)
@@ -250,8 +251,16 @@ def paper(made: MadeLinkage) -> bytes:
         drawn[one.sheet] += _drawn(made, parts[one.part], one.at, one.turn)
     for tiles in tiled:
         drawn += tiles.pages(made)
-    framed = ([*items, *_frame(made, f"page {n} of {len(drawn)}")] for n, items in enumerate(drawn, start=1))
-    return pages((wide * _PIXELS, high * _PIXELS), None, framed, title=f"{made.scene.title}: parts")
+    framed = (
+        [*items, *_frame(made, said("page {number} of {count}", number=n, count=len(drawn)))]
+        for n, items in enumerate(drawn, start=1)
+    )
+    return pages(
+        (wide * _PIXELS, high * _PIXELS),
+        None,
+        framed,
+        title=said("{title}: parts", title=said(made.scene.title)),
+    )
 
 
 class _Tiles(NamedTuple):
@@ -292,9 +301,14 @@ class _Tiles(NamedTuple):
                     continue
                 items = list(_drawn(made, self.part, -corner, self.turn))
                 items += self._crosses(made, column, row)
-                words = (
-                    f"{self.part.label}: {column + 1} of {self.across} from the left, {row + 1} of {self.up} "
-                    "from the foot; lay its crosses over those of its neighbours"
+                words = said(
+                    "{part}: {column} of {columns} from the left, {row} of {rows} from the foot; lay its "
+                    "crosses over those of its neighbours",
+                    part=self.part.label,
+                    column=column + 1,
+                    columns=self.across,
+                    row=row + 1,
+                    rows=self.up,
                 )
                 items.append(_words(made, words, complex(0, self.room[1] + 2)))
                 yield items
@@ -379,11 +393,15 @@ def _frame(made: MadeLinkage, number: str) -> Iterator[Item]:
     yield _words(made, "0", complex(-0.9, -9))
     yield _words(
         made,
-        f"{_RULER} mm: print at 100 % and check with a ruler",
+        said("{length} mm: print at 100 % and check with a ruler", length=_RULER),
         complex(_RULER - 2.5, -9),
     )
     above = complex(0, made.sheet[1] - 2 * MARGIN - FOOT + 6)
-    yield _words(made, f"{made.scene.title}, {made.size_words}; {number}", above)
+    yield _words(
+        made,
+        said("{title}, {size}; {page}", title=said(made.scene.title), size=made.size_words, page=number),
+        above,
+    )
 
 
 def bodies(made: MadeLinkage) -> Iterator[tuple[str, bytes]]:

@@ -17,6 +17,7 @@ from linkanim.picture.shapes import disc, stroke
 from linkanim.picture.text import letters, subscripted
 from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
+from linkanim.words import name_said, said
 from linkanim.workshop.made import MadeLinkage, MadePin
 from linkanim.workshop.shapes import polygon
 
@@ -205,7 +206,7 @@ class Drawn:
             top = 14 + row * 1.5 * _TEXT
             box = np.array([complex(x, y) for x, y in ((12, top), (30, top), (30, top + 14), (12, top + 14))])
             yield Layer(self._colour(number), [box])
-            yield Caption("ground" if layer == 0 else f"layer {layer}", (37, top - 3), _TEXT, self.theme.ink)
+            yield Caption(_layer_said(layer), (37, top - 3), _TEXT, self.theme.ink)
 
     def side(self) -> Iterator[Item]:
         """Yield the layers seen from the side: plates over their extent, pins from end to end."""
@@ -225,8 +226,7 @@ class Drawn:
             return foot - step * layer
 
         for layer in range(self.made.layers + 1):
-            word = "ground" if layer == 0 else f"layer {layer}"
-            yield Caption(word, (8, y(layer + 0.5) - 0.5 * _TEXT), _TEXT, self.theme.dim)
+            yield Caption(_layer_said(layer), (8, y(layer + 0.5) - 0.5 * _TEXT), _TEXT, self.theme.dim)
         thick = 0.72
         for number in self._order():
             begin, end = (x(place) for place in spans[number])
@@ -288,7 +288,13 @@ def preview(made: MadeLinkage, size: tuple[int, int] = (1280, 640)) -> Illustrat
     drawn = Drawn(made, figure(made.scene).clearest, (width // 2, height))
     beside = (_moved(item, width / 2) for item in drawn.exploded())
     groups = grouped("from above", drawn.plan()), grouped("lifted off", beside)
-    return Illustration(f"{made.scene.title}: its layers", size, LIGHT.background, groups)
+    return Illustration(
+        said("{title}: its layers", title=said(made.scene.title)), size, LIGHT.background, groups
+    )
+
+
+def _layer_said(layer: int) -> str:
+    return said("layer {number}", number=layer) if layer else name_said("ground")
 
 
 def _moved(item: Item, right: float) -> Item:

@@ -18,6 +18,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import figure
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
 from linkanim.scenes.scene import Scene
+from linkanim.words import name_said, said, said_many
 from linkanim.workshop.layers import Budget, Stack, Unstackable, can_be_stacked, stacked
 from linkanim.workshop.media import Size, Way
 from linkanim.workshop.parts import Band, Hole, Kit, Plate, Sizes, kit, refuse_thin
@@ -97,14 +98,17 @@ class MadeLinkage:
     def size_words(self) -> str:
         """How large it is made, in words."""
         return (
-            "in true size" if abs(self.ratio - 1) < _TRUE else f"{self.ratio:g} times as large as the scene"
+            said("in true size")
+            if abs(self.ratio - 1) < _TRUE
+            else said("{number} times as large as the scene", number=f"{self.ratio:g}")
         )
 
     @property
     def layer_words(self) -> str:
         """The number of layers in words; there is none where all parts slide within the ground."""
-        layers = "1 layer" if self.layers == 1 else f"{self.layers} layers"
-        return f"in {layers} on the ground" if self.layers else "all within the ground"
+        if not self.layers:
+            return said("all within the ground")
+        return said_many("in 1 layer on the ground", "in {count} layers on the ground", self.layers)
 
     @cached_property
     def numbers(self) -> tuple[str, ...]:
@@ -121,7 +125,7 @@ class MadeLinkage:
     def label(self, number: int) -> str:
         """Return a plate's number and name; the number alone where that is its name."""
         name, own = self.plates[number].name, self.numbers[number]
-        return own if name == own else f"{own} {name}"
+        return own if name == own else f"{own} {name_said(name)}"
 
     @cached_property
     def layered(self) -> Layered:
