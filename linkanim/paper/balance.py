@@ -20,9 +20,10 @@ from linkanim.picture.quantities import linear, range_around
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
+from linkanim.words import said, sentences, to_say
 
 _DASHES = (6.0, 3.0)
-_STRIPS = (("shaking force", "N"), ("shaking moment about the origin", "N m"))
+_STRIPS = ((to_say("shaking force"), "N"), (to_say("shaking moment about the origin"), "N m"))
 
 Floats = NDArray[np.float64]
 
@@ -46,13 +47,17 @@ class BalanceChart(DrawnPage):
     @property
     def title(self) -> str:
         """What it shows, in words."""
-        return f"{self.scene.title}: what inertia does to the ground, without and with counterweights"
+        return said(
+            "{title}: what inertia does to the ground, without and with counterweights",
+            title=said(self.scene.title),
+        )
 
     @property
     def words(self) -> str:
         """How large both get, without and with counterweights."""
         pairs = zip(_STRIPS, self._in_words, strict=True)
-        return " ".join(f"{name[:1].upper()}{name[1:]}: {told}." for (name, _), told in pairs)
+        strips = (said("{label}: {words}", label=said(name), words=told) for (name, _), told in pairs)
+        return sentences(*(said("{found}.", found=strip[:1].upper() + strip[1:]) for strip in strips))
 
     @property
     def _in_words(self) -> list[str]:
@@ -60,8 +65,14 @@ class BalanceChart(DrawnPage):
         for n, (_, unit) in enumerate(_STRIPS):
             before, after = (one.greatest[n] for one in self.both)
             remaining = significant(after, 4) if after > 1e-9 * before else "0"
-            first = f"at most {significant(before, 4)} {unit} without counterweights"
-            told.append(f"{first}, {remaining} {unit} with them")
+            told.append(
+                said(
+                    "at most {before} {unit} without counterweights, {after} {unit} with them",
+                    before=significant(before, 4),
+                    after=remaining,
+                    unit=unit,
+                )
+            )
         return told
 
     def csv(self) -> str:
@@ -80,7 +91,12 @@ class BalanceChart(DrawnPage):
         for n, (name, unit) in enumerate(_STRIPS):
             strip = Rect(whole.x, whole.y + 1.4 * pen.text + n * high, whole.width, high)
             values = [curve[n] for curve in curves]
-            yield from self._strip(strip, f"{name} ({unit}): {self._in_words[n]}", values, foot=n == 1)
+            yield from self._strip(
+                strip,
+                said("{label}: {words}", label=f"{said(name)} ({unit})", words=self._in_words[n]),
+                values,
+                foot=n == 1,
+            )
 
     def _strip(self, rect: Rect, title: str, values: Sequence[Floats], *, foot: bool) -> Iterator[Item]:
         pen, theme = self.pen, self.pen.theme
@@ -92,12 +108,12 @@ class BalanceChart(DrawnPage):
         yield from axes(plot, pen)
         yield Caption(title, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
         strokes = (
-            LegendEntry("without counterweights", theme.force),
-            LegendEntry("with them", theme.velocity, dashes=_DASHES),
+            LegendEntry(said("without counterweights"), theme.force),
+            LegendEntry(said("with them"), theme.velocity, dashes=_DASHES),
         )
         for curve, one in zip(values, strokes, strict=True):
             rows = np.append(places, math.degrees(self.scene.period)), np.append(curve, curve[0])
             yield curve_layer(plot, *rows, one.colour, one.width * pen.line, one.dashes)
         if foot:
-            yield x_title(plot, "phase", pen)
+            yield x_title(plot, said("phase"), pen)
             yield from legend(area.x, x_title(plot, "", pen).at[1], strokes, pen)

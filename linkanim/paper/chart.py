@@ -38,6 +38,7 @@ from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import disc, segments
 from linkanim.picture.view import Rect
 from linkanim.units import stepped
+from linkanim.words import said, said_as
 
 # Words on a chart's curves: each extreme beside its dot, and at their ends the names of many curves.
 
@@ -195,7 +196,8 @@ def _thinned(points: Sequence[complex], apart: float) -> Iterator[complex]:
 
 def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
     unit = "°" if curve.quantity.shown_unit(curves.scene.length_unit) == "°" else ""
-    return f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit} at {curves.place_words(peak.x)}"
+    value = f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit}"
+    return said("{value} at {place}", value=value, place=curves.place_words(peak.x))
 
 
 def _about(at: complex, text: str, pen: Pen, *, high: bool) -> Alternatives:
@@ -273,7 +275,8 @@ class Page(DrawnPage):
     def title(self) -> str:
         """What it shows, in words."""
         words = dict.fromkeys(curve.quantity.words for curve in self.curves.curves)
-        return f"{self.curves.scene.title}: {', '.join(words)}"
+        title = said(self.curves.scene.title)
+        return said("{title}: {part}", title=title, part=said_as("list", ", ").join(words))
 
     @property
     def words(self) -> str:
@@ -289,7 +292,7 @@ class Page(DrawnPage):
         """Yield everything on the page, back to front."""
         pen, whole = self.pen, Rect(0, 0, *self.size).inset(20 * self.pen.line / 1.8)
         if not self.brief:
-            title = self.curves.scene.title
+            title = said(self.curves.scene.title)
             yield Caption(title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
         entries = self._legend()
         rows = list(_rows(entries, whole.width, pen)) if len(entries) > 1 else []

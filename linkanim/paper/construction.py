@@ -21,12 +21,14 @@ from linkanim.picture.look import ConstructionKind
 from linkanim.picture.quantities import driven_words, linear, range_around
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import segments
+from linkanim.picture.text import unspaced
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.constructions import ConstructionStep
 from linkanim.synthesis.generation import FEWEST_POINTS, Generated
 from linkanim.synthesis.linkages import Real
 from linkanim.units import rounded, significant
+from linkanim.words import said
 
 # The construction of a synthesis as a figure: its marks, and below them a sentence for each step.
 
@@ -73,7 +75,7 @@ class ConstructionPage(DrawnPage):
         coordinate = self.scene.pose(self._phase, 0).coordinate
         value = coordinate % math.tau if self.scene.info.full_turn else coordinate
         where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
-        return f"{title_of(self.scene, self._kind)} at {where}"
+        return said("{title} at {place}", title=title_of(self.scene, self._kind), place=where)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front; a step has the same place however many are shown."""
@@ -91,21 +93,22 @@ class ConstructionPage(DrawnPage):
         view = view_of(box_of(marks), area)
         yield from construction_items([mark for step in shown for mark in step.marks], view, area, pen)
         yield Caption(self.title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
-        said = [
+        told = [
             line
             for n, step in enumerate(shown, 1)
             for line in self._wrapped(f"{n}  {step.words}", whole.width)
         ]
-        for n, line in enumerate(said):
+        for n, line in enumerate(told):
             yield Caption(line, (whole.x, area.bottom + n * _LINE * pen.small), pen.small, pen.theme.ink)
 
     def _wrapped(self, text: str, width: float) -> list[str]:
         """Return a sentence in lines no wider than the page."""
         lines = [""]
-        for word in text.split(" "):
-            longer = f"{lines[-1]} {word}" if lines[-1] else word
+        pieces = ((" " * (n == 0), part) for word in text.split(" ") for n, part in enumerate(unspaced(word)))
+        for gap, piece in pieces:
+            longer = f"{lines[-1]}{gap}{piece}" if lines[-1] else piece
             if lines[-1] and self.pen.type.width(longer, self.pen.small) > width:
-                lines.append(f"    {word}")
+                lines.append(f"    {piece}")
             else:
                 lines[-1] = longer
         return lines
@@ -130,7 +133,11 @@ class ErrorChart(DrawnPage):
     @property
     def title(self) -> str:
         """What it shows, in words."""
-        return f"Structural error of {self.shown.task.function.words}, {self.shown.task.kind.name}"
+        return said(
+            "Structural error of {function}, {kind}",
+            function=self.shown.task.function.words,
+            kind=said(self.shown.task.kind.name),
+        )
 
     @cached_property
     def curve(self) -> tuple[Real, Real]:
@@ -160,10 +167,9 @@ class ErrorChart(DrawnPage):
         plot = Plot(area, linear(function.first, function.last, most=most), y_axis)
         yield from axes(plot, pen)
         scale = f" × 10{str(power).translate(_RAISED)}" if power else ""
-        said = (
-            f"error in y{scale}, {significant(100 * self.shown.error / abs(function.span), 2)} % of its range"
-        )
-        yield Caption(said, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
+        share = significant(100 * self.shown.error / abs(function.span), 2)
+        words = said("error in y{scale}, {share} % of its range", scale=scale, share=share)
+        yield Caption(words, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
         yield x_title(plot, "x", pen)
         foot = complex(plot.pixels(function.first, 0.0))
         yield Layer(theme.dim, segments(foot, foot + area.width, 0.6 * pen.line))

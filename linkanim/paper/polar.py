@@ -24,6 +24,7 @@ from linkanim.picture.shapes import arrows, segments
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.units import stepped
+from linkanim.words import said, sentences
 
 _SAMPLES, _EVERY = 720, 60
 """How many points a curve has for each turn of the drive, and how many from one dot to the next: 30°."""
@@ -88,12 +89,15 @@ class PolarPage(DrawnPage):
     @property
     def title(self) -> str:
         """What it shows, in words."""
-        return f"{self.scene.title}: {self.known[0].words}, polar diagram"
+        return said(
+            "{title}: {quantity}, polar diagram", title=said(self.scene.title), quantity=self.known[0].words
+        )
 
     @property
     def words(self) -> str:
         """Where the vector is largest."""
-        return " ".join(f"{self._largest(head)[1]}." for head in self.heads if self._largest(head)[1])
+        largest = (self._largest(head)[1] for head in self.heads)
+        return sentences(*(said("{found}.", found=words) for words in largest if words))
 
     def csv(self) -> str:
         """Return the curves as a table: phase, the input, both components at each speed."""
@@ -204,7 +208,7 @@ class PolarPage(DrawnPage):
         """Return which point of a curve is farthest out, and that in words; None where it is not bounded."""
         sizes = np.hypot(head.x, head.y)
         if not np.isfinite(sizes).all():
-            return None, f"{self.known[0].words} is unbounded"
+            return None, said("{quantity} is unbounded", quantity=self.known[0].words)
         k = int(sizes.argmax())
         motion = head.pace.motion(self.scene, self.phases[k : k + 1])
         place = float(np.asarray(motion.coordinate)[0])
@@ -212,7 +216,8 @@ class PolarPage(DrawnPage):
         unit = self.known[0].shown_unit(self.scene.length_unit)
         where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
         largest = float(sizes[k])
-        return k, f"greatest {stepped(largest, largest / 2000)} {unit} at {where}"
+        shown = f"{stepped(largest, largest / 2000)} {unit}"
+        return k, said("greatest {value} at {place}", value=shown, place=where)
 
     def _size_words(self, plot: Plot, below: Rect) -> Iterator[Item]:
         """Yield below the diagram how large the vector gets, at each speed."""
@@ -224,7 +229,7 @@ class PolarPage(DrawnPage):
             yield line_layer(
                 [np.array([start, start + 2.6 * pen.small])], self._colour(n), 1.2 * pen.line, _DASHES[n % 4]
             )
-            words = f"{head.pace.words}: {self._largest(head)[1]}"
+            words = said("{label}: {words}", label=head.pace.words, words=self._largest(head)[1])
             yield Caption(words, (below.x + 3.1 * pen.small, y), pen.small, pen.theme.ink)
 
 

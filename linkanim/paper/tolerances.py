@@ -16,6 +16,7 @@ from linkanim.picture.quantities import linear
 from linkanim.picture.view import Rect
 from linkanim.scenes.deviation import Off, Tolerance
 from linkanim.units import significant
+from linkanim.words import name_said, said, sentences
 
 _DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0))
 """Of the lengths that are drawn alone, those that matter most."""
@@ -42,15 +43,30 @@ class ToleranceChart(DrawnPage):
         """What it shows, in words."""
         scene, off = self.shown.scene, self.off
         by = f"{significant(self.shown.by, 4)} {scene.length_unit}"
-        return f"How far {off.name} may be off, each length by {by}: {scene.title}"
+        return said(
+            "How far {part} may be off, each length by {by}: {title}",
+            part=name_said(off.name),
+            by=by,
+            title=said(scene.title),
+        )
 
     @property
     def words(self) -> str:
         """What is seen in it, in a paragraph."""
         off, phase = self.off, math.degrees(self.off.worst_phase or 0.0)
-        said = f"At most {self._in_words(off.worst)}, at a phase of {significant(phase, 3)}°, to first order"
-        drawn = f"; 95 in 100 linkages stay within {self._in_words(off.likely)}" if off.likely > 0 else ""
-        return f"{said}{drawn}. {self.shown.most(off)} matters most: {self._in_words(float(off.by.max()))}."
+        known = {"most": self._in_words(off.worst), "phase": significant(phase, 3)}
+        first = said("At most {most}, at a phase of {phase}°, to first order.", **known)
+        if off.likely > 0:
+            first = said(
+                "At most {most}, at a phase of {phase}°, to first order; 95 in 100 linkages stay within "
+                "{likely}.",
+                **known,
+                likely=self._in_words(off.likely),
+            )
+        chief = self._in_words(float(off.by.max()))
+        return sentences(
+            first, said("{length} matters most: {by}.", length=name_said(self.shown.most(off)), by=chief)
+        )
 
     def _in_words(self, value: float) -> str:
         return f"{significant(self._scale * value, 3)} {self.unit}"
@@ -78,12 +94,15 @@ class ToleranceChart(DrawnPage):
         area = plot_area(below, y_axis, pen, foot=True)
         plot = Plot(area, linear(0.0, float(phases[-1]), most=13, unit="°"), y_axis)
         yield from axes(plot, pen)
-        dots = f"in {self.unit}; dots: 95 in 100 linkages stay below the lower, all of 10,000 below the upper"
+        dots = said(
+            "in {unit}; dots: 95 in 100 linkages stay below the lower, all of 10,000 below the upper",
+            unit=self.unit,
+        )
         yield Caption(dots, (area.x, area.y - 1.4 * pen.small), pen.small, theme.ink)
-        yield x_title(plot, "phase", pen)
-        strokes = [LegendEntry("all lengths", theme.velocity, 1.6)]
+        yield x_title(plot, said("phase"), pen)
+        strokes = [LegendEntry(said("all lengths"), theme.velocity, 1.6)]
         for n, dashes in zip(np.argsort(-off.by), _DASHES, strict=False):
-            strokes.append(LegendEntry(self.shown.lengths[n], theme.acceleration, 1.0, dashes))
+            strokes.append(LegendEntry(name_said(self.shown.lengths[n]), theme.acceleration, 1.0, dashes))
             yield curve_layer(plot, phases, alone[n], theme.acceleration, pen.line, dashes)
         yield curve_layer(plot, phases, bound, theme.velocity, 1.6 * pen.line)
         yield from legend(area.x, x_title(plot, "", pen).at[1], strokes, pen)

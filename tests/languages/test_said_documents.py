@@ -6,16 +6,23 @@ import json
 import re
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from pseudo import plain_words, spoken_pseudo, visible
 
-from linkanim import load
+from linkanim import load, tolerance
 from linkanim.cli import main
 from linkanim.explain.documents import HTML, document
 from linkanim.explain.exercise import Level, exercise
 from linkanim.explain.solution import PoseRequest, solution
+from linkanim.paper.chart import Page
+from linkanim.paper.construction import ConstructionPage
+from linkanim.paper.curves import Pace, curves_of
+from linkanim.paper.polar import PolarPage
+from linkanim.paper.tolerances import ToleranceChart
+from linkanim.picture.items import words_of
 from linkanim.play.quiz import as_html, as_text, questions
 from linkanim.share.page import Shared, packaged, script_words
 from linkanim.share.page import document as page
@@ -140,3 +147,26 @@ def test_a_language_that_is_not_there_is_refused_with_those_that_are(
     told = capsys.readouterr().err
     assert told.count("\n") == 1
     assert all(word in told for word in ("klingon", "en", "zh_TW", "zh_CN"))
+
+
+def _chart(name: str, *tokens: str) -> Page:
+    scene = load(name)
+    return Page(curves_of(scene, tokens, (Pace(scene.linkage.drive.speed, ""),)))
+
+
+PAGES: dict[str, Callable[[], Page | PolarPage | ConstructionPage | ToleranceChart]] = {
+    "chart": lambda: _chart("crank-rocker", "rocker.angle"),
+    "chart of several": lambda: _chart("crank-rocker", "rocker.angular_velocity", "coupler.angular_velocity"),
+    "polar diagram": lambda: PolarPage(load("press"), "2.A.force", (Pace(2.0, ""),)),
+    "dead centres": lambda: ConstructionPage(load("crank-rocker"), kind="dead-centres"),
+    "instant centres": lambda: ConstructionPage(load("crank-rocker"), kind="centres"),
+    "tolerances": lambda: ToleranceChart(tolerance(load("crank-rocker"), 0.1)),
+}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_no_word_of_a_drawn_page_stays_behind(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    with spoken_pseudo(monkeypatch):
+        drawn = PAGES[name]()
+        text = f"{drawn.title} {drawn.words} {words_of(drawn.groups())}"
+    assert plain_words(text, _KNOWN) == set()
