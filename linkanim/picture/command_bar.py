@@ -90,17 +90,6 @@ def _row(
     return cells
 
 
-def bar_rect(layout: Layout, bar: CommandBar | None) -> Rect | None:
-    """Return the rectangle of the bar at the foot; None where there is none."""
-    return next(iter(bar_rects(layout, bar)), None)
-
-
-def bar_rects(layout: Layout, bar: CommandBar | None) -> list[Rect]:
-    """Return the rectangles of the bar: at the foot, and on a chart."""
-    frames = _frames(layout, bar.buttons, bar_cells(layout, bar.buttons)) if bar else ()
-    return [frame for frame, _ in frames]
-
-
 def share_at(cell: Rect, x: float) -> float:
     """Return how far along the slider in a cell a pixel is, 0 to 1."""
     begin, end = _rail(cell)

@@ -12,10 +12,12 @@ import pygame
 import pytest
 from playing import SIZE, Player, bar_cells_in, menu_in, the
 
-from linkanim.picture.command_bar import BarPrinter, bar_cells, bar_rect
+from linkanim.picture.command_bar import BarPrinter, bar_cells
 from linkanim.picture.command_icons import COMMAND_ICONS
-from linkanim.picture.layout import Docked, layout, with_side
-from linkanim.picture.theme import theme_of
+from linkanim.picture.layout import Docked, Layout, layout, with_side
+from linkanim.picture.overlay import CommandBar
+from linkanim.picture.raster import offscreen
+from linkanim.picture.theme import LIGHT, theme_of
 from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
 from linkanim.player import taking
@@ -246,6 +248,12 @@ def test_a_finger_taps_the_bar_once_it_is_there(player: Player) -> None:
 SIZES = [(320, 180), (640, 360), (1280, 720), (1920, 1080), (3840, 2160), (400, 900), (90, 60), (2, 700)]
 
 
+def at_foot(place: Layout, shown: CommandBar | None) -> Rect:
+    """Return where the bar at the foot is drawn."""
+    targets = BarPrinter().draw(offscreen(place.size), place, LIGHT, shown)
+    return next(one.place for one in targets if one.kind == "bar")
+
+
 @in_every_mode
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_rest_is_left_out(
@@ -254,8 +262,7 @@ def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_re
     found = bar(entered(mode))
     assert found
     place, cells = layout(size), bar_cells(layout(size), found.buttons)
-    frame = bar_rect(place, found)
-    assert frame
+    frame = at_foot(place, found)
     seen = [(cell, button) for cell, button in zip(cells, found.buttons, strict=True) if cell]
     assert any(button.icon == "more" for _, button in seen)
     if min(size) >= 180:
@@ -569,8 +576,7 @@ def test_nothing_that_is_shown_for_long_is_under_the_bar(size: tuple[int, int], 
         state = after(begun, *actions, "mouse_moved")
         picture = Framing(window=True).fitting(state, size)
         place = picture.layout
-        frame = bar_rect(place, bar(state))
-        assert frame
+        frame = at_foot(place, bar(state))
         assert (
             picture.composition.while_dragged(picture.composition.subject).view is picture.composition.view
         ), look
@@ -582,7 +588,6 @@ def test_the_help_ends_above_the_bar() -> None:
     with screen.opened((1280, 720)):
         player = Player(after(begin(load("crank-rocker")), "help", "mouse_moved"))
         shown = player.window.screen
-        frame = bar_rect(shown.last.layout, shown.over.bar)
-        assert frame
+        frame = shown.targets("bar")[0].place
         assert all(shown.help_at(x, frame.y) is None for x in range(0, 1280, 20))
         player.window.close()
