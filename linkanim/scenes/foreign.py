@@ -75,7 +75,7 @@ def _checked(foreign: Foreign, where: str) -> Foreign:
         raise BadInput(f"{where}: has {len(foreign.points):,} joints, and {MOST_JOINTS} are the most here")
     if not foreign.links.get(GROUND):
         raise BadInput(f"{where}: has no joint that is fixed to the ground")
-    if "joint" not in foreign.drive:
+    if not {"joint", "cylinder"} & foreign.drive.keys():
         raise BadInput(f"{where}: says of no joint that a motor turns there, and none on the ground is free")
     for name, points in foreign.links.items():
         lost = next((point for point in points if point not in foreign.points), None)
@@ -573,7 +573,11 @@ def linkage2(text: str, where: str) -> Foreign:
     for one in (*root.iter("Link"), *root.iter("link")):
         on = [f"P{part.get('id')}" for part in one.iter("connector")]
         if one.get("actuator") == "true":
-            raise BadInput(f"{where}: link {one.get('id')} is an actuator; drive it by a slide of [points]")
+            if drive or len(on) != 2 or not {*on} <= points.keys():
+                reason = "is an actuator beside another input, or not between two connectors"
+                raise BadInput(f"{where}: link {one.get('id')} {reason}; leave one of them out")
+            drive = _actuated(one.attrib, (on[0], on[1]), points, where)
+            continue
         if one.get("gear") == "true":
             dropped.append(f"the teeth of link {one.get('id')}")
         if len(on) > 1 and not {*on} <= {*ground}:
@@ -581,6 +585,20 @@ def linkage2(text: str, where: str) -> Foreign:
     used = {point for on in links.values() for point in on}
     kept = {name: place for name, place in points.items() if name in used}
     return Foreign(kept, links, {}, drive or _usual_drive(links), tuple(dropped))
+
+
+def _actuated(
+    actuator: Mapping[str, str], ends: tuple[str, str], points: Mapping[str, tuple[float, float]], where: str
+) -> dict[str, Any]:
+    """Return the drive of an actuator of Linkage, which grows from the length in the drawing by its throw."""
+    what = f"of link {actuator.get('id')}"
+    throw = _number(actuator.get("throw") or "", where, f"the throw {what}")
+    speed = _number(actuator.get("cpm") or "15", where, f"the speed {what}")
+    length = math.dist(*(points[end] for end in ends))
+    return {
+        "cylinder": {"between": [*ends], "from": length, "to": length + throw},
+        "speed": f"{abs(speed):g} rpm",
+    }
 
 
 def link_arrays(data: bytes, where: str) -> Foreign:

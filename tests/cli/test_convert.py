@@ -240,6 +240,27 @@ def test_speeds_and_units_are_those_of_the_file(tmp_path: Path) -> None:
         assert (written["drive"]["speed"], written["length_unit"]) == (speed, unit)
 
 
+def test_an_actuator_of_linkage_is_a_cylinder_that_grows_by_its_throw(tmp_path: Path) -> None:
+    points = {"O": [0, 0], "Q": [110, 0], "G": [60, -40], "A": [20, 60], "B": [100, 70], "P": [60, 110]}
+    links = {
+        "ground": ["O", "Q", "G"],
+        "a": ["O", "A"],
+        "b": ["A", "B", "P"],
+        "c": ["Q", "B"],
+        "d": ["G", "P"],
+    }
+    written = as_linkage2({"points": points, "links": links}).decode()
+    written = written.replace(' input="true" rpm="-20"', "")
+    written = written.replace('<Link id="4">', '<Link id="4" actuator="true" throw="0.25" cpm="12">')
+    (tmp_path / "lift.linkage2").write_text(written, encoding="utf-8")
+    assert main(["convert", str(tmp_path / "lift.linkage2"), "-o", str(tmp_path / "lift.toml")]) == 0
+    scene = linkanim.load(tmp_path / "lift.toml")
+    assert scene.info.input_range == (150.0, 150.25)
+    assert scene.info.period_seconds == pytest.approx(5.0)
+    found = scene.solve(phase=math.pi, speed=1.0).position
+    assert math.dist(found["P2"], found["P5"]) == pytest.approx(150.25, abs=1e-12)
+
+
 def test_a_link_into_the_web_is_read_as_it_stands(tmp_path: Path) -> None:
     link = as_pmks_plus(document(0)).decode().strip()
     assert main(["convert", link, "-o", str(tmp_path / "out.toml")]) == 0
@@ -277,7 +298,13 @@ HOSTILE: dict[str, tuple[str, bytes, str]] = {
     "an actuator": (
         "my.linkage2",
         b'<linkage2><connector id="0" x="0" y="0"/><Link id="1" actuator="true"/></linkage2>',
-        "is an actuator",
+        "is an actuator beside another input, or not between two connectors",
+    ),
+    "an actuator without a throw": (
+        "my.linkage2",
+        b'<linkage2><connector id="0" x="0" y="0"/><connector id="1" x="9" y="0"/>'
+        b'<Link id="1" actuator="true"><connector id="0"/><connector id="1"/></Link></linkage2>',
+        "the throw of link 1",
     ),
     "no arrays": ("my.npz", b"PK\x03\x04", "no arrays"),
     "an empty MotionGen": ("my.motiongen", b"{}", "no mechanism"),
