@@ -18,7 +18,7 @@ from typing import Any, NoReturn, TypeVar, cast, get_args
 from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES, NUMBERS, can_be_computed
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.intake import meant
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
 from linkanim.picture.purpose import PURPOSES
@@ -132,20 +132,16 @@ def count(text: str) -> int:
     return int(text)
 
 
-class ConstructionAsked(NamedTuple):
-    """Which construction, the usual one where it is None, and how many of its steps: None for all."""
+def asked_construction(text: str) -> tuple[ConstructionKind | None, int | None]:
+    """Read a kind of construction, a number of steps, or both: `centres:3`.
 
-    kind: ConstructionKind | None = None
-    steps: int | None = None
-
-
-def asked_construction(text: str) -> ConstructionAsked:
-    """Read a kind of construction, a number of steps, or both: `centres:3`."""
+    No kind is the usual one, no number all steps.
+    """
     kind, _, steps = text.partition(":")
     if kind in get_args(ConstructionKind):
-        return ConstructionAsked(cast(ConstructionKind, kind), count(steps) if steps else None)
+        return cast(ConstructionKind, kind), count(steps) if steps else None
     if re.fullmatch(r"\d+", text):
-        return ConstructionAsked(steps=count(text))
+        return None, count(text)
     raise BadInput(
         f"{shown(text)} is no construction; give synthesis, centres or dead-centres, a number of steps, or "
         "both: centres:3"
@@ -521,7 +517,7 @@ _CONSTRUCTION = _value(
     "draw a construction in its steps: `synthesis` (of what `guide`, `function` or `quick-return` found), "
     "`centres` or `dead-centres`; `centres:3` are its first three steps",
     nargs="?",
-    const=ConstructionAsked(),
+    const=(None, None),
 )
 _SPEED = _value(
     "--speed SPEED", units.angular_speed, "the input's speed, such as \"30 rpm\" (default: the scene's)"

@@ -38,11 +38,8 @@ _SHARE = 1e-5
 """The share of a value by which a table may be off."""
 
 
-class Pole(NamedTuple):
-    """A place at which values are unbounded, as a share of the period, and the power with which they grow."""
-
-    place: float
-    power: int
+Pole = tuple[float, int]
+"""Where values are unbounded, as a share of the period, and the power with which they grow."""
 
 
 class Tabulated(NamedTuple):
@@ -92,7 +89,7 @@ def _poles(read: Read, places: Sequence[float], period: float) -> Iterator[Pole]
         far, nearer, here = np.max(np.abs(read(place + np.array([_NEAR, _NEARER, _AT]))), axis=0).tolist()
         if 0 < far < nearer and here > _LARGE * nearer:
             growth = math.log(nearer / far, _NEAR / _NEARER) if nearer < math.inf else 1.0
-            yield Pole(place / period, max(round(growth), 1))
+            yield place / period, max(round(growth), 1)
 
 
 class _Sought(NamedTuple):
