@@ -22,6 +22,7 @@ from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 from linkanim.ui import screen
 from linkanim.ui.window import MEANINGS
+from linkanim.words import LANGUAGES, spoken
 
 
 def after(state: State, *actions: Action | str) -> State:
@@ -87,6 +88,7 @@ def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(playe
     wanted = [one for one in listed if one[-1].name != "menu"] or expected(mode)
     if mode in ("play", "paused", "list", "edit"):
         wanted = [*wanted, *CONSTRUCTED]
+    wanted += [(name, "", Action("language", one)) for one, name in LANGUAGES.items() if one != spoken()]
     for opening in ("key", "mouse"):
         if opening == "key":
             player.press(pygame.K_F10)
