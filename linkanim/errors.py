@@ -38,6 +38,10 @@ class DyadAtLimit(AssemblyError):
     """A dyad before or behind links that are solved together comes to a limit: it belongs to them."""
 
 
+class EndsError(AssemblyError):
+    """Ends of an input's length that its linkage cannot reach."""
+
+
 class OutOfRange(BadInput):
     """An input that the linkage cannot reach."""
 

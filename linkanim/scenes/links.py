@@ -19,7 +19,7 @@ from itertools import combinations
 from typing import Any
 
 from linkanim.frozen import NamedTuple
-from linkanim.intake import meant
+from linkanim.intake import few, meant
 from linkanim.mechanics.groups import (
     GroupGear,
     GroupLink,
@@ -38,7 +38,7 @@ from linkanim.scenes.file_form import (
     SECTIONS,
     motor_ratio,
 )
-from linkanim.scenes.form import Table, on_circle
+from linkanim.scenes.form import SHORTEST, Table, on_circle
 from linkanim.units import angle, shown
 
 # What a file's tables say of the pose: where its points are, which links join them, what slides.
@@ -188,7 +188,7 @@ def _check_links(top: Table, pose: PosedLinks) -> None:
     slides = {end for slide in pose.slides for end in (slide.on, slide.link)}
     for name, points in pose.links.items():
         if not points or (len(points) < 2 and name not in (GROUND, *slides)):
-            raise table.error(name, "has two points or more; a block with one pin slides: [slides.block]")
+            raise table.error(name, "needs two points or more; a block with one pin, a slide: [slides.block]")
         places = [pose.places[point] for point in points]
         if len(points) > 1 and all(abs(place - places[0]) <= _NEAR * pose.size for place in places):
             raise table.error(name, f"{points[0]} and {points[1]} are one point; a link needs two places")
@@ -598,11 +598,12 @@ def _as_joints(
 ) -> AsJoints:
     motors = _further_motors(top, pose, drive, further)
     pose = pose._replace(gears=(*pose.gears, *motors))
+    _refuse_ends(top.table("drive"), pose, drive)
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
     if "cylinder" in drive and not _turns_crank(pose, drive):
         return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]), whole=whole)
-    if "slide" in drive and not (slide := _driving(top, pose, drive["slide"])).other(GROUND):
+    if "slide" in drive and not (slide := _driving(top.table("drive"), pose, drive["slide"])).other(GROUND):
         return _by_length(top, pose, slide, whole=whole)
     if "slide" not in drive and (motor := _moving_motor(chain, drive)):
         driven = _by_moving_motor(chain, motor)
@@ -631,6 +632,28 @@ def _as_joints(
     return AsJoints(_document(top, pose, chain, driven), group)
 
 
+def _refuse_ends(table: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> None:
+    """Refuse the ends of an input's length where nothing would move between them, or no slide drives."""
+    if "slide" in drive:
+        _driving(table, pose, drive["slide"])
+    else:
+        for key in ("from", "to"):
+            if key in drive:
+                way_out = "name one, as slide = ..., or write it in cylinder = { ... }"
+                raise table.error(key, f"is an end of a driving slide, but no slide drives; {way_out}")
+    own, ends = ("cylinder", drive["cylinder"]) if "cylinder" in drive else ("", drive)
+    if {"from", "to"} <= ends.keys() and abs(ends["to"] - ends["from"]) < SHORTEST:
+        place = "length" if own else "place"
+        reason = f"is the same {place} as from, so nothing would move; write another one"
+        raise (table.table(own) if own else table).error("to", reason)
+    if own:
+        first, second = ends["between"]
+        shared = [name for name in pose.at(first) if name in pose.at(second)]
+        if shared:
+            reason = f"{first} and {second} are on one link, so nothing would move"
+            raise table.table(own).error("between", f"{reason}; name points of two links")
+
+
 def _further_motors(
     top: Table, pose: PosedLinks, drive: Mapping[str, Any], further: Mapping[str, Any]
 ) -> tuple[GearPair, ...]:
@@ -645,7 +668,9 @@ def _further_motors(
         own = top.table("drives").table(name)
         links = _driven_links(own, pose, _pivot_of(own, pose, motor), motor.get("links"))
         if first[0] != GROUND or links[0] != GROUND or links[1] == first[1]:
-            raise own.error("joint", "is no fixed point about which another link than the first one's turns")
+            pins = (name for name in pose.links[GROUND] if {*pose.at(name)} - {GROUND, *first})
+            reason = "is no fixed point about which another link than the first one's turns"
+            raise own.error("joint", f"{reason}; there are {few(pins) or 'none'}")
         if "start" in motor:
             raise own.error("start", "is that of the pose; leave it out")
         ratio = motor_ratio(own, motor["speed"], drive["speed"])
@@ -932,7 +957,12 @@ def _moving_motor(chain: _Dyads, drive: Mapping[str, Any]) -> GroupMotor | None:
         return None
     if "cylinder" in drive:
         raise table.error("cylinder", f"turns {links[1]} about a joint that moves; give both as links")
-    return GroupMotor(pivot, links, (chain.pin_of(links[0], pivot), chain.pin_of(links[1], pivot)))
+    arms = chain.pin_of(links[0], pivot), chain.pin_of(links[1], pivot)
+    for link, arm in zip(links, arms, strict=True):
+        if not arm:
+            reason = f"is where {' and '.join(links)} meet, and {link} is a block"
+            raise table.error("joint", f"{reason}; give {link} a second point, which shows how it turns")
+    return GroupMotor(pivot, links, arms)
 
 
 def _by_moving_motor(chain: _Dyads, motor: GroupMotor) -> dict[str, Any]:
@@ -947,9 +977,8 @@ def _angle_between(pose: PosedLinks, motor: GroupMotor) -> float:
     return phase(second / first)
 
 
-def _driving(top: Table, pose: PosedLinks, name: str) -> PosedSlide:
+def _driving(table: Table, pose: PosedLinks, name: str) -> PosedSlide:
     """Return the slide that drives; refuse one that is none, and what does not go with one."""
-    table = top.table("drive")
     for key in ("joint", "links", "start", "cylinder", "slider"):
         if key in table:
             raise table.error(key, "does not go with a slide that drives; leave it out")
@@ -975,9 +1004,7 @@ def _turns_crank(pose: PosedLinks, drive: Mapping[str, Any]) -> bool:
 def _with_cylinder(top: Table, pose: PosedLinks, ends: tuple[str, str]) -> tuple[PosedLinks, PosedSlide]:
     """Return the pose with a cylinder as a link about its first end, along which the other one slides."""
     first, second = sorted(ends, key=lambda end: end not in pose.links[GROUND])
-    table, name = top.table("drive").table("cylinder"), "cylinder"
-    if {*pose.at(first)} & {*pose.at(second)}:
-        raise table.error("between", f"{first} and {second} are on one link, so nothing would move")
+    name = "cylinder"
     while name in pose.links or any(slide.name == name for slide in pose.slides):
         name += "'"
     slide = PosedSlide(name, name, phase(pose.places[second] - pose.places[first]), point=second)

@@ -19,7 +19,7 @@ from typing import Any
 
 from linkanim import units
 from linkanim.bounds import MOST_PROBLEMS
-from linkanim.errors import AssemblyError, BadInput, DyadAtLimit
+from linkanim.errors import AssemblyError, BadInput, DyadAtLimit, EndsError
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.groups import GroupPoint
@@ -446,17 +446,22 @@ def _read_points(
             break
     if scene and group:
         scene = replace(scene, document=top.values)
-    return scene, [*problems, *(_of_points(error, top.where) for error in further)]
+    return scene, [*problems, *(_of_points(error, top) for error in further)]
 
 
-def _of_points(error: BadInput, where: str) -> BadInput:
-    """Return an error about a joint as one about the point, or the links, that it came from."""
+def _of_points(error: BadInput, top: Table) -> BadInput:
+    """Return an error about a joint as one about what it came from: a point, the links, the driven length."""
     section, *rest = error.keys or ("",)
-    if section not in ("joints", GROUND):
+    if error.keys[:2] == ("drive", "slider"):
+        written = ("drive", "cylinder") if "cylinder" in top.table("drive") else ("drive",)
+        joint, own, keys = "drive.slider", ".".join(written), (*written, *rest[1:])
+    elif section in ("joints", GROUND):
+        joint, own = section, "points" if rest else "links"
+        keys = (own, *rest[:1])
+    else:
         return error
-    own = "points" if rest else "links"
-    told = type(error)(str(error).replace(f"{where}: {section}", f"{where}: {own}", 1))
-    told.keys = (own, *rest[:1])
+    told = type(error)(str(error).replace(f"{top.where}: {joint}", f"{top.where}: {own}", 1))
+    told.keys = keys
     return told
 
 
@@ -598,6 +603,10 @@ def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
         _ = scene.mechanism
     except DyadAtLimit:
         raise
+    except EndsError as error:
+        drive = top.table("drive")
+        ends = next((key for key in ("cylinder", "slider") if key in drive), None)
+        raise unassembled(drive.table(ends) if ends else drive, str(error)) from None
     except AssemblyError as error:
         section = next((key for key in SHORTHANDS if key in top), "joints")
         raise unassembled(top.table(section), str(error)) from None

@@ -276,6 +276,26 @@ F = [60, 40]
 G = [60, 10]
 [links]{AT_A_LIMIT}"""
 
+KNEE = """
+[points]
+O = [0, 0]
+K = [60, 200]
+B = [0, 400]
+P = [90, 60]
+Q = [90, 330]
+[links]
+ground = ["O"]
+lower = ["O", "K", "P"]
+upper = ["K", "B", "Q"]
+ram = ["B"]
+[slides.guide]
+link = "ram"
+on = "ground"
+angle = "90 deg"
+[drive]
+{}
+"""
+
 REFUSED = [
     # what is not said
     ("no links", "[points]\nA = [0, 0]\n", "links", "names no point"),
@@ -330,7 +350,7 @@ REFUSED = [
         FOUR_BAR.replace(
             'joint = "O2"', 'joint = "A"\ncylinder = { between = ["O2", "B"], from = 9, to = 10 }'
         ),
-        "links",
+        "drive.cylinder: ",
         "let the cylinder's length come to 61.3706 mm, not to 9 mm; choose another end",
     ),
     ("a motor at a point", FOUR_BAR.replace('joint = "O2"', 'joint = "P"'), "drive.joint", "alone"),
@@ -342,6 +362,50 @@ REFUSED = [
         "points",
         "stand at a limit",
     ),
+    # what moves nothing, or is said twice
+    (
+        "a motor between a block and a link",
+        KNEE.format('joint = "B"'),
+        "drive.joint",
+        "upper and ram meet, and ram is a block; give ram a second point",
+    ),
+    (
+        "a slide and a cylinder",
+        KNEE.format('slide = "guide"\ncylinder = { between = ["P", "Q"], from = 200, to = 270 }'),
+        "drive.cylinder",
+        "does not go with a slide",
+    ),
+    ("ends of no slide", KNEE.format('joint = "O"\nfrom = 20\nto = 30'), "drive.from", "no slide drives"),
+    (
+        "a cylinder in one link, from the ground",
+        KNEE.format('cylinder = { between = ["O", "P"], from = 100, to = 120 }'),
+        "drive.cylinder.between",
+        "O and P are on one link, so nothing would move; name points of two links",
+    ),
+    (
+        "a cylinder with one end",
+        KNEE.format('cylinder = { between = ["P", "Q"], from = 240, to = "24 cm" }'),
+        "drive.cylinder.to",
+        "is the same length as from",
+    ),
+    (
+        "a slide with one end",
+        KNEE.format('slide = "guide"\nfrom = 400\nto = 400'),
+        "drive.to",
+        "is the same place as from",
+    ),
+    (
+        "a slide beyond its limit",
+        KNEE.format('slide = "guide"\nfrom = 390\nto = 1500'),
+        "drive: ",
+        "run from 390 to 417.612 mm only",
+    ),
+    (
+        "a second motor at the first one's crank",
+        KNEE.format('joint = "O"\nspeed = "20 rpm"\n[drives.second]\njoint = "K"\nspeed = "20 rpm"'),
+        "drives.second.joint",
+        "there are none",
+    ),
     ("slide and joint", PISTON + 'joint = "O"\n', "drive.joint", "does not go with a slide"),
     (
         "lengths that no pose has",
@@ -352,7 +416,7 @@ REFUSED = [
     (
         "a group behind a cylinder",
         STEPHENSON + 'cylinder = { between = ["A", "F"], from = 39, to = 80 }\n',
-        "links",
+        "drive.cylinder: ",
         "let the cylinder's length come to",
     ),
     (

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, EndsError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import FULL_TURN, Sum, exact_angle, reduced, two_sum
 from linkanim.mechanics.arithmetic import LookUp, Moving, Slope, Value, arctan2, maximum, minimum, rint
@@ -236,7 +236,7 @@ def _way_to(
         actuator, unit = linkage.drive.actuator, linkage.unit
         length = f"{actuator.noun}'s {'length' if actuator.along else 'travel'}"
         most, stated = (place / system.shrunk * unscale for place in (float(there[-1]), end))
-        raise AssemblyError(
+        raise EndsError(
             f"its links let the {length} come to {most:.6g} {unit}, not to {stated:g} {unit};"
             " choose another end"
         )

@@ -24,7 +24,7 @@ from typing import ClassVar, NoReturn
 
 import numpy as np
 
-from linkanim.errors import AssemblyError, BadInput
+from linkanim.errors import BadInput, EndsError
 from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
@@ -98,12 +98,12 @@ class Stroke(ThereAndBack):
         return Moving(length, rate, second)
 
     def cut(self, low: Limit, high: Limit) -> NoReturn:
-        """Raise AssemblyError with the lengths between which everything closes: a stroke is not cut back."""
+        """Raise EndsError with the lengths between which everything closes: a stroke is not cut back."""
         dyad = next(name for _, name in (low, high) if name is not None)
         ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
         least, most = sorted(ends)
         first, last = self.first * self.unscale, self.last * self.unscale
-        raise AssemblyError(
+        raise EndsError(
             f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} {self.unit} only, "
             f"not from {first:g} to {last:g} {self.unit}; choose other ends"
         )
@@ -294,13 +294,13 @@ def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Swing] | None) 
 
 
 def _with_room(path: CylinderStroke, arcs: list[Swing] | None) -> CylinderStroke:
-    """Return the path that a cylinder drives; AssemblyError where a loop on the crank leaves it no room."""
+    """Return the path that a cylinder drives; EndsError where a loop on the crank leaves it no room."""
     low, high = path.input_range
     around = [arc.shifted(arc.turns_to(float(path.swing.middle))) for arc in arcs or ()]
     if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in around):
         return path
     within = " or ".join(f"{degrees(float(arc.low))}…{degrees(float(arc.high))}" for arc in arcs)
-    raise AssemblyError(
+    raise EndsError(
         f"joint {arcs[0].ends[0]}: the cylinder would turn the crank {degrees(low)}…{degrees(high)}, "
         f"and the bars meet at {within} only; choose other ends"
     )
@@ -310,9 +310,9 @@ def _check(cylinder: Cylinder, sides: tuple[float, float], unit: str) -> None:
     low, high = abs(sides[0] - sides[1]), sum(sides)
     for length in cylinder.stated_lengths:
         if not low < length < high:
-            raise AssemblyError(
+            raise EndsError(
                 f"a cylinder of length {length:g} {unit} between {' and '.join(cylinder.between)}: it can be "
-                f"{low:g} to {high:g} {unit} long, ends not included"
+                f"{low:g} to {high:g} {unit} long, ends not included; choose other ends"
             )
 
 
