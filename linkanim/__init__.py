@@ -5,8 +5,8 @@ or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` pose
 coupler passes them, `function` a function into linkages that generate it, `quick_return` a time ratio
 into linkages that have it, `dwell` a rest into linkages that keep it, `make` a scene into parts to cut and
 pin together; `solve_many` solves a scene with many lengths in one call, `tolerance` says how far it is off
-when its lengths are. Everything is imported when first asked for: `import linkanim` alone brings in neither
-a window nor an encoder.
+when its lengths are; with `speaking` pictures and pages are in another language. Everything is imported
+when first asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
 The rooms, from the ground up. Each imports only from those before it; its docstring lists its modules in
 the order in which they are read:
@@ -59,6 +59,7 @@ if TYPE_CHECKING:
     from linkanim.synthesis.guidance import guide
     from linkanim.synthesis.path import path
     from linkanim.synthesis.quick_returns import quick_return
+    from linkanim.words import speaking
     from linkanim.workshop.request import make
 
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
@@ -81,6 +82,7 @@ __all__ = [
     "quick_return",
     "record",
     "solve_many",
+    "speaking",
     "tolerance",
 ]
 
@@ -98,6 +100,7 @@ _HOME = {
     "quick_return": "linkanim.synthesis.quick_returns",
     "record": "linkanim.recorder.recording",
     "solve_many": "linkanim.scenes.many",
+    "speaking": "linkanim.words",
     "tolerance": "linkanim.scenes.deviation",
 }
 

@@ -87,7 +87,7 @@ def spoken() -> str:
 
 @contextmanager
 def speaking(language: str) -> Iterator[None]:
-    """Speak a language while the block runs."""
+    """Speak a language, such as "zh_TW", while the block runs: what is drawn and written in it says so."""
     before = _SPOKEN.set(language)
     try:
         yield

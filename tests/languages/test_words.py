@@ -90,6 +90,7 @@ def test_a_catalogue_has_the_sentences_of_the_code_and_no_others(language: str) 
     known = {(message.context, first(message.id)): message for message in read(language) if message.id}
     assert sorted(map(str, set(known) ^ set(sentences()))) == []
     assert [message.id for message in known.values() if message.fuzzy] == []
+    assert [message.id for message in known.values() if not first(message.string)] == []
 
 
 @pytest.mark.parametrize("language", TRANSLATED)
