@@ -131,7 +131,7 @@ GAMES = {
     "title": ["Run", "Build", "Draw a path", "Play"],
     "lobby": ["Predict", "Match", "Follow"],
     "menu": ["All mechanisms", "Four-bars", "Sliders"],
-    "predict level=2 seed=7": ["it slows down", "it speeds up", "out of it"],
+    "predict level=2 chapter=press seed=2": ["it slows down", "it speeds up", "out of it"],
     "follow scene=press": ["wide, slow", "narrower, faster", "narrow, fast"],
 }
 
