@@ -45,13 +45,15 @@ def parse(argv: Sequence[str] | None = None) -> Namespace:
 def run(chosen: Namespace) -> None:
     """Import the module of the chosen command, and only that, and let it do its work in its language.
 
-    A command that says nothing in the reader's language has no option for it.
+    A command that says nothing in the reader's language has no option for it. JSON is in English, unless the
+    command line itself names a language: what reads it does not know the environment's.
     """
     if chosen.command not in _WITHOUT_PYGAME:
         refuse_mixed_pygame()
     module = f"linkanim.cli.commands.{chosen.command.replace('-', '_')}"
     work = cast(Callable[[Namespace], None], import_module(module).run)
-    with speaking((chosen.lang or language_of()) if "lang" in chosen else ENGLISH):
+    language = getattr(chosen, "lang", ENGLISH) or (ENGLISH if vars(chosen).get("json") else language_of())
+    with speaking(language):
         work(chosen)
 
 

@@ -170,3 +170,19 @@ def test_no_word_of_a_drawn_page_stays_behind(name: str, monkeypatch: pytest.Mon
         drawn = PAGES[name]()
         text = f"{drawn.title} {drawn.words} {words_of(drawn.groups())}"
     assert plain_words(text, _KNOWN) == set()
+
+
+READ_BY_PROGRAMS = {
+    "the environment's language": ([], "Which way"),
+    "a language that the command line names": (["--lang", "zh_TW"], "方向"),
+}
+
+
+@pytest.mark.parametrize(("words", "asked"), READ_BY_PROGRAMS.values(), ids=READ_BY_PROGRAMS)
+def test_json_is_in_english_unless_the_command_line_names_a_language(
+    words: list[str], asked: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("LANGUAGE", "zh_TW")
+    assert main(["quiz", "press", "-n", "1", "--json", *words]) == 0
+    (question,) = json.loads(capsys.readouterr().out)
+    assert asked in question["question"]
