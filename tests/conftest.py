@@ -93,6 +93,9 @@ SAMPLE = {
 }
 """Scenes of every drive, dyad and kind of limit: what tests marked `sampled` look at."""
 
+SOLVED_TOGETHER = {"double-butterfly", "knee-cylinder", "steering", "stephenson-3-link6"}
+"""Scenes that take several times as long as others; two more like them are quick."""
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -110,10 +113,11 @@ def _leave_to_long_runs(items: list[pytest.Item]) -> None:
     """Mark as long what sampled tests have about other scenes, then what thinned ones leave out."""
     seen = Counter[str]()
     for item in items:
-        if item.get_closest_marker("sampled") and isinstance(item, pytest.Function):
-            about = item.callspec.params
-            if about.get("name", about.get("scene")) not in SAMPLE:
-                item.add_marker(pytest.mark.long)
+        about = item.callspec.params if hasattr(item, "callspec") else {}
+        if not SOLVED_TOGETHER.isdisjoint({value for value in about.values() if isinstance(value, str)}):
+            item.add_marker(pytest.mark.slow)
+        if item.get_closest_marker("sampled") and about.get("name", about.get("scene")) not in SAMPLE:
+            item.add_marker(pytest.mark.long)
         thinned = item.get_closest_marker("thinned")
         if thinned and not item.get_closest_marker("long"):
             test = item.nodeid.split("[")[0]

@@ -253,10 +253,9 @@ class GroupPoint(Joint):
 
     @property
     def pins(self) -> tuple[str, ...]:
-        """Itself where links meet in it or a bar ends, and the joints that its bars come from."""
-        own = self.group.at_point(self.name)
-        itself = len(own) > 1 or any(len(link.points) == 2 for link in own)
-        return (*(start for start, _ in self.bars), *(self.name,) * itself)
+        """Itself where links meet in it, and the joints that its bars come from."""
+        own = (self.name,) if len(self.group.at_point(self.name)) > 1 else ()
+        return (*(start for start, _ in self.bars), *own)
 
     @property
     def slides(self) -> tuple[Slide, ...]:

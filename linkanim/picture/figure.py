@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from linkanim.frozen import frozen
 from linkanim.mechanics.centres import blocks
+from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.layout import Gauge, Layout
@@ -111,8 +112,17 @@ class Figure:
         hung = {name for strut in self.struts for name in strut.between}
         ends = {name for body in self.bodies for name in body.joints}
         fixed = {pin.name for pin in self.linkage.pins}
-        names = used | hung | (ends & fixed)
+        names = used - self._free | hung | (ends & fixed)
         return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
+
+    @property
+    def _free(self) -> set[str]:
+        """The points of links that are solved together which are on one link alone: nothing turns there."""
+        group, bodies = group_of(self.linkage), self.linkage.rigid_bodies
+        slid = {slide.point for joint in self.linkage.joints for slide in joint.slides}
+        points = {name for member in group.members for name in member.points} if group else set[str]()
+        once = {name for name in points if group and len(group.at_point(name)) == 1} - slid
+        return {name for name in once if sum(name in body for body in bodies) == 1}
 
     def riding(self, body: Body) -> tuple[str, ...]:
         """Return the ends of unnamed bars that keep their place on a body though they are not in it.

@@ -295,6 +295,13 @@ def _fitted(joint: Joint, context: DrawContext) -> Iterator[Fitting]:
         yield from (_slider(joint, slide.line, context) for slide in own)
 
 
+def _slot_part(bar: Bar, context: DrawContext) -> Part:
+    """Return the slot of a bar as a part: the bar is as long as that needs."""
+    ends = bar.slot or (0j,)
+    wide = rounded(list(ends), SLOTTED * context.gauge.bar)
+    return Part(bar.ends[0], *bar.ends, (Layer(context.theme.metal, [wide]),))
+
+
 def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, Loop, Loop]]:
     """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
 
@@ -306,6 +313,7 @@ def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, 
     thin = scale * 1e-6 * max(figure.shortest, 1e-6 * figure.extent)
     context = DrawContext(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
     parts = [part for fitting in fittings(context) for part in (*fitting.behind, *fitting.before)]
+    parts += [_slot_part(fitting.bar, context) for fitting in fittings(context) if fitting.bar]
     step = max(len(figure.cycle.phase) // _TRIED, 1)
     for fitting in fittings(context):
         if fitting.guide and fitting.guide.head:
