@@ -128,7 +128,7 @@ def of_many_linkages() -> Entry:
     """Return the row of ten thousand four-bars whose cranks turn fully, each at one angle."""
     kind, random = synthesised.FOUR_BAR, np.random.default_rng(1)
     rows = kind.random_rows(random, 20 * FEW)
-    rows = rows[(kind.slack(rows, 0.0) > 0).all(axis=1)][:FEW]
+    rows = rows[(kind.margins(rows, 0.0) > 0).all(axis=1)][:FEW]
     ways, angles = np.ones(len(rows)), random.uniform(0.0, TURN, (len(rows), 1))
     timed = Timed(lambda: kind.joints(rows, ways, angles), len(rows))
     name = f"synthesis, {len(rows):,} different linkages"

@@ -269,7 +269,7 @@ def made(seed: int) -> Level:
     random = np.random.default_rng(seed)
     while True:
         rows = FOUR_BAR.random_rows(random, 64)
-        good = np.flatnonzero((FOUR_BAR.slack(rows, math.radians(30)) > 0).all(axis=1))
+        good = np.flatnonzero((FOUR_BAR.margins(rows, math.radians(30)) > 0).all(axis=1))
         if len(good):
             break
     joints = Linkage4.of(rows[good[0]], Random(seed).uniform(0, 2 * math.pi))

@@ -348,10 +348,10 @@ def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
 
 def keeps(task: PathTask, row: Real) -> bool:
     """Return whether a linkage keeps all limits, but for rounding."""
-    slack = task.requirements.slack(task.kind, row[None])
+    margins = task.requirements.margins(task.kind, row[None])
     mask, values = task.requirements.held(task.kind)
     given = np.abs(row - values) * mask
-    return bool((slack >= -_SLACK * task.curve.size).all() and (given <= _SLACK * task.curve.size).all())
+    return bool((margins >= -_SLACK * task.curve.size).all() and (given <= _SLACK * task.curve.size).all())
 
 
 def _feet(answer: _Answer, task: PathTask, places: Real) -> tuple[Real, Real]:

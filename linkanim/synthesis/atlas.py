@@ -76,7 +76,7 @@ def _sampled(kind: LinkageKind, count: int) -> Real:
     sound: list[Real] = []
     while sum(map(len, sound)) < count:
         rows = kind.random_rows(random, 2 * count)
-        sound.append(rows[(kind.slack(rows, _WORST) > 0).all(axis=1)])
+        sound.append(rows[(kind.margins(rows, _WORST) > 0).all(axis=1)])
     return np.concatenate(sound)[:count]
 
 

@@ -227,7 +227,7 @@ def dwell(
 def _arcs(rest: float, least_angle: float) -> Iterator[tuple[float, _Arc]]:
     """Yield the arcs of all curves of the atlas, one of each, with their deviation in ways of D."""
     rows = atlas(FOUR_BAR).rows
-    rows = rows[(FOUR_BAR.slack(rows, least_angle) > 0).all(axis=1)]
+    rows = rows[(FOUR_BAR.margins(rows, least_angle) > 0).all(axis=1)]
     angles = np.arange(_POSES) * (math.tau / _POSES)
     wide = math.ceil(rest / angles[1]) + 1
     for some in np.array_split(rows, -(-len(rows) // _AT_ONCE)):

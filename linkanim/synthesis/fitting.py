@@ -125,7 +125,7 @@ _FIRST_DAMPING, _LEAST_DAMPING = 1e-3, 1e-15
 _STANDING, _PATIENCE, _EXACT = 1e-6, 12, 1e-31
 """When to stop: after so many steps in a row that gain less than a share of the merit, or at this merit."""
 _NEARER = 0.1
-"""The share of a limit's slack that is left by a step that would break the limit otherwise."""
+"""The share of a limit's margin that is left by a step that would break the limit otherwise."""
 _OF_GAP = 0.45
 """The longest step of a crank angle, as a share of the gap to its neighbour, so that the order is kept."""
 _BROKEN = 1e3
@@ -134,11 +134,11 @@ _DIFFERENCE = 1e-7
 
 
 class _State(NamedTuple):
-    """Candidates with their traced points, the slack of their limits, and their merit."""
+    """Candidates with their traced points, the margins of their limits, and their merit."""
 
     candidates: Candidates
     traced: TracedPoints
-    slack: Real
+    margins: Real
     broken: Real
     cost: Real
 
@@ -182,16 +182,16 @@ def merit(problem: PathTask, candidates: Candidates) -> Real:
 def _state(problem: PathTask, candidates: Candidates, *, guarded: bool) -> _State:
     with np.errstate(all="ignore"):
         traced = problem.kind.trace(candidates.rows, candidates.closure, candidates.angles)
-        slack = problem.requirements.slack(problem.kind, candidates.rows)
+        margins = problem.requirements.margins(problem.kind, candidates.rows)
         mask, values = problem.requirements.held(problem.kind)
         missing = (candidates.rows - values) * mask
         off = np.abs(problem.curve.points - traced.point) ** 2 * problem.weights
         between = _between(problem, candidates, traced) if guarded and problem.is_dense else 0.0
         turning = 2 if problem.requirements.full_turn else 0
-        broken = np.minimum(slack[:, turning:], 0.0)
+        broken = np.minimum(margins[:, turning:], 0.0)
         cost = off.mean(axis=1) + between + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
-        cost = np.where(np.isfinite(cost) & (slack[:, :turning] > 0).all(axis=1), cost, np.inf)
-    return _State(candidates, traced, slack, missing, cost)
+        cost = np.where(np.isfinite(cost) & (margins[:, :turning] > 0).all(axis=1), cost, np.inf)
+    return _State(candidates, traced, margins, missing, cost)
 
 
 def _between(problem: PathTask, candidates: Candidates, traced: TracedPoints) -> Real:
@@ -254,26 +254,26 @@ def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damp
     equations = np.zeros((len(right), len(mask), count))
     equations[:, range(len(mask)), range(len(mask))] = mask
     step = _solved(normal, right, equations, -state.broken)
-    slack, rows = state.slack, state.candidates.rows
-    moved = problem.requirements.slack(problem.kind, rows + step[:, : rows.shape[1]])
-    breaking = ~(moved >= np.minimum(_NEARER * slack, 0.9 * slack + 1e-12))
+    margins, rows = state.margins, state.candidates.rows
+    moved = problem.requirements.margins(problem.kind, rows + step[:, : rows.shape[1]])
+    breaking = ~(moved >= np.minimum(_NEARER * margins, 0.9 * margins + 1e-12))
     if not breaking.any():
         return step
-    limits = np.zeros((*slack.shape, count))
-    limits[..., : rows.shape[1]] = _slack_slopes(problem, rows, slack) * breaking[..., None]
+    limits = np.zeros((*margins.shape, count))
+    limits[..., : rows.shape[1]] = _margin_slopes(problem, rows, margins) * breaking[..., None]
     return _solved(
         normal,
         right,
         np.concatenate([equations, limits], axis=1),
-        np.concatenate([-state.broken, (_NEARER - 1.0) * slack * breaking], axis=1),
+        np.concatenate([-state.broken, (_NEARER - 1.0) * margins * breaking], axis=1),
     )
 
 
-def _slack_slopes(problem: PathTask, rows: Real, slack: Real) -> Real:
-    """Return how each slack changes with each parameter (B, m, p)."""
+def _margin_slopes(problem: PathTask, rows: Real, margins: Real) -> Real:
+    """Return how each margin changes with each parameter (B, m, p)."""
     moved = (rows + step for step in _DIFFERENCE * np.eye(rows.shape[1]))
-    after = [problem.requirements.slack(problem.kind, near) for near in moved]
-    return np.asarray((np.stack(after, axis=2) - slack[..., None]) / _DIFFERENCE)
+    after = [problem.requirements.margins(problem.kind, near) for near in moved]
+    return np.asarray((np.stack(after, axis=2) - margins[..., None]) / _DIFFERENCE)
 
 
 def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:

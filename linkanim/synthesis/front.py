@@ -314,7 +314,7 @@ def _starts(task: PathTask, pool: Candidates) -> _Limited:
     which: list[Indices] = []
     limits: list[tuple[float, float]] = []
     for angle in _ANGLES:
-        sticks = np.asarray((task.kind.slack(pool.rows, angle) <= 0).any(axis=1))
+        sticks = np.asarray((task.kind.margins(pool.rows, angle) <= 0).any(axis=1))
         for longest in _SIZES:
             fine = np.flatnonzero(size <= _LARGER * longest)
             best = fine[np.argsort(sticks[fine], kind="stable")][:_STARTS]

@@ -585,10 +585,12 @@ def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
         merit += weight * np.maximum(math.log(math.sin(_USUAL_LEAST)) - sine, 0.0)
         merit -= _TURNING * judged.turning
         limits = task.requirements
-        slack = limits.slack(task.kind, judged.rows).min(axis=1)
+        margins = limits.margins(task.kind, judged.rows).min(axis=1)
         if task.boxes:
-            slack = np.minimum(slack, -_outside(task, task.kind.pivots(judged.rows)))
-        allowed = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.angle_to_keep("angle"))
+            margins = np.minimum(margins, -_outside(task, task.kind.pivots(judged.rows)))
+        allowed = (margins >= -1e-9 * task.poses.size) & (
+            judged.transmission >= limits.angle_to_keep("angle")
+        )
     merit += _DEFECT * judged.defects.sum(axis=1)
     return np.asarray(np.where(allowed & np.isfinite(merit), merit, np.inf))
 

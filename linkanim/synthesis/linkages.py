@@ -82,7 +82,7 @@ class LinkageKind(ABC):
         """Close the coupler on the ground, with the pins A (B, n)."""
 
     @abstractmethod
-    def slack(self, rows: Real, least_angle: float | Real) -> Real:
+    def margins(self, rows: Real, least_angle: float | Real) -> Real:
         """Return (B, 2), both positive where the crank turns fully above a least transmission angle."""
 
     @abstractmethod
@@ -269,7 +269,7 @@ class FourBarKind(LinkageKind):
         arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
         return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground, other], axis=1)
 
-    def slack(self, rows: Real, least_angle: float | Real) -> Real:
+    def margins(self, rows: Real, least_angle: float | Real) -> Real:
         """Return a margin for each extreme of the transmission angle, positive above the least angle."""
         crank, a, b = rows[:, 2], rows[:, 3], rows[:, 8]
         ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
@@ -367,7 +367,7 @@ class SliderCrankKind(LinkageKind):
         arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
         return np.stack([rows[:, 2], rows[:, 3], arm, other], axis=1)
 
-    def slack(self, rows: Real, least_angle: float | Real) -> Real:
+    def margins(self, rows: Real, least_angle: float | Real) -> Real:
         """Return a margin for the rod's steepest angle to either side, positive where it is allowed."""
         reach, offset = rows[:, 3] * np.cos(least_angle) - rows[:, 2], rows[:, 7]
         return np.stack([reach - offset, reach + offset], axis=-1)
@@ -535,9 +535,9 @@ class Requirements:
             given=given or {},
         )
 
-    def slack(self, kind: LinkageKind, rows: Real) -> Real:
+    def margins(self, kind: LinkageKind, rows: Real) -> Real:
         """Return by how much each limit is kept (B, m), negative if broken; a full turn's two come first."""
-        turning = [kind.slack(rows, self.angle_to_keep("angle"))] if self.full_turn else []
+        turning = [kind.margins(rows, self.angle_to_keep("angle"))] if self.full_turn else []
         lengths = kind.link_lengths(rows)
         limits = [self.largest - lengths, lengths - self.shortest]
         if self.boxes:

@@ -69,7 +69,7 @@ def _random(count: int) -> PathRow:
     """Measure how well random coupler curves of crank-rockers and drag-links are found, 64 points each."""
     random = np.random.default_rng(_SEED)
     rows = FOUR_BAR.random_rows(random, 40 * count)
-    rows = rows[(FOUR_BAR.slack(rows, math.radians(1)) > 0).all(axis=1)][:count]
+    rows = rows[(FOUR_BAR.margins(rows, math.radians(1)) > 0).all(axis=1)][:count]
     angles = np.tile(2 * math.pi * np.arange(64) / 64, (len(rows), 1))
     found = [_timed(points, count=1) for points in FOUR_BAR.points(rows, np.ones(len(rows)), angles)]
     errors = np.array([100 * fits[0].rms / fits[0].task.curve.size for fits, _ in found])
@@ -118,9 +118,9 @@ def global_search(points: Complex, seconds: float) -> float:
 
 def _off(rows: Real, sought: Complex) -> Real:
     """Return each linkage's root mean square distance, beyond 10 where its crank does not turn fully."""
-    slack = FOUR_BAR.slack(rows[:, :9], 0.0).min(axis=1)
-    turning = np.flatnonzero(slack > 0)
-    off = 10.0 - np.minimum(slack, 0.0)
+    margins = FOUR_BAR.margins(rows[:, :9], 0.0).min(axis=1)
+    turning = np.flatnonzero(margins > 0)
+    off = 10.0 - np.minimum(margins, 0.0)
     if len(turning):
         angles = np.tile(np.linspace(0, 2 * math.pi, _SAMPLES, endpoint=False), (len(turning), 1))
         closure = np.where(rows[turning, 9] > 0, 1.0, -1.0)

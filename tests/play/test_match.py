@@ -150,7 +150,7 @@ def test_the_answers_are_the_path_solver_s(name: str) -> None:
     )
     assert level.answer
     if name == "swan":  # which an input that swings draws, too
-        found = tuple(fit for fit in found if FOUR_BAR.slack(np.array([fit.row]), STEEP - 1e-6).min() >= 0)
+        found = tuple(fit for fit in found if FOUR_BAR.margins(np.array([fit.row]), STEEP - 1e-6).min() >= 0)
     # cognates, and mirror images of a straight line's, are as exact: it is one of those
     first = [fit for fit in found if fit.rms < found[0].rms * (1 + 1e-6)]
     own, *others = (

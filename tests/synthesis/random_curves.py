@@ -13,7 +13,7 @@ def linkages(kind: str, count: int, seed: int) -> Real:
     """Return parameters of linkages whose crank turns fully, a degree away from a change point."""
     chosen, random = KINDS[kind], np.random.default_rng(seed)
     rows = chosen.random_rows(random, 40 * count)
-    return rows[(chosen.slack(rows, math.radians(1)) > 0).all(axis=1)][:count]
+    return rows[(chosen.margins(rows, math.radians(1)) > 0).all(axis=1)][:count]
 
 
 def curves(kind: str, count: int, seed: int, *, points: int = 64, turn: float = 1.0) -> list[Complex]:

@@ -44,10 +44,10 @@ def test_slopes_are_those_of_the_points(name: str, closure: float) -> None:
 def test_slack_is_positive_where_the_solver_says_a_full_turn(name: str) -> None:
     kind = KINDS[name]
     rows = kind.random_rows(np.random.default_rng(3), 40)
-    for row, slack in zip(rows, kind.slack(rows, 0.0), strict=True):
+    for row, margins in zip(rows, kind.margins(rows, 0.0), strict=True):
         tables = kind.document(dict(zip(kind.parameters, row.tolist(), strict=True)), 1.0)
         try:
             turns = scene_from(tables, name="s", where="s").info.full_turn
         except linkanim.LinkanimError:
             turns = False
-        assert turns == bool((slack > 0).all())
+        assert turns == bool((margins > 0).all())

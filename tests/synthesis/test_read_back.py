@@ -167,11 +167,11 @@ def wrong(
         checks["rms in time"] = abs(rms - row["rms"]) <= 1e-6 * rms + 1e-8 * size
     else:
         nearest, ordered = passed(scene, points)
-        slack = 3e-6 * size + 1e-3 * row["rms"]
-        checks["rms"] = nearest - slack <= row["rms"]
+        margin = 3e-6 * size + 1e-3 * row["rms"]
+        checks["rms"] = nearest - margin <= row["rms"]
         # an input that swings may follow it better through a limit, on both closures
-        checks["rms in order"] = row["rms"] <= ordered + slack or not scene.info.full_turn
-        checks["order"] = ordered <= max(3 * row["rms"], row["rms"] + slack)
+        checks["rms in order"] = row["rms"] <= ordered + margin or not scene.info.full_turn
+        checks["order"] = ordered <= max(3 * row["rms"], row["rms"] + margin)
     return [name for name, holds in checks.items() if not holds]
 
 
