@@ -56,7 +56,14 @@ def test_no_word_of_a_solution_stays_behind(name: str, monkeypatch: pytest.Monke
     assert plain_words(text, _KNOWN) == set()
 
 
-@pytest.mark.parametrize("level", ["drawing", "hints", "formulas"])
+@pytest.mark.parametrize(
+    "level",
+    [
+        pytest.param("drawing", marks=pytest.mark.slow),
+        "hints",
+        pytest.param("formulas", marks=pytest.mark.slow),
+    ],
+)
 def test_no_word_of_an_exercise_stays_behind(level: Level, monkeypatch: pytest.MonkeyPatch) -> None:
     with spoken_pseudo(monkeypatch):
         found = [
@@ -67,6 +74,7 @@ def test_no_word_of_an_exercise_stays_behind(level: Level, monkeypatch: pytest.M
     assert plain_words(text, _KNOWN) == set()
 
 
+@pytest.mark.slow
 def test_no_word_of_a_quiz_stays_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("crank-rocker", "press", "whitworth", "jansen", "double-rocker", "landing-gear")
     with spoken_pseudo(monkeypatch):
@@ -76,6 +84,7 @@ def test_no_word_of_a_quiz_stays_behind(monkeypatch: pytest.MonkeyPatch) -> None
     assert plain_words(text, _KNOWN | titles) == set()
 
 
+@pytest.mark.slow
 def test_a_quiz_is_the_same_in_every_language() -> None:
     scenes = [load(name) for name in ("crank-rocker", "press", "whitworth")]
     rounds = {}
@@ -87,7 +96,13 @@ def test_a_quiz_is_the_same_in_every_language() -> None:
     assert rounds["zh_TW"] == rounds["en"] == rounds["zh_CN"]
 
 
-@pytest.mark.parametrize("name", ["crank-rocker", "press", "geared-five-bar-2-1"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "crank-rocker",
+        *(pytest.param(one, marks=pytest.mark.slow) for one in ("press", "geared-five-bar-2-1")),
+    ],
+)
 def test_no_word_of_a_page_that_moves_stays_behind(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     with spoken_pseudo(monkeypatch):
         text = page(Shared(load(name), names=1))
@@ -104,6 +119,7 @@ def test_no_word_of_a_page_that_moves_stays_behind(name: str, monkeypatch: pytes
 LANGUAGES = {"en": "en", "zh_TW": "zh-Hant", "zh_CN": "zh-Hans"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("language", "tag"), LANGUAGES.items())
 def test_a_page_says_which_language_it_is_in(
     language: str, tag: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -129,7 +145,7 @@ def test_latex_names_fonts_that_have_its_letters(language: str, fonts: str, tmp_
     assert fonts in target.read_text("utf-8").partition("\n\\begin{document}")[0]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(shutil.which("xelatex") is None, reason="needs xelatex, and fonts with its letters")
 @pytest.mark.parametrize("language", TEX)
 def test_no_letter_of_a_compiled_solution_is_missing(language: str, tmp_path: Path) -> None:
