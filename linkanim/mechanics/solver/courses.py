@@ -587,6 +587,8 @@ def _course(
         for piece in pieces
     ]
     values = np.array([in_floats(piece.coefficients) for piece in pieces]) / shrunk
+    # a point that does not move across its guide has what its solution's last digits leave there
+    values[np.abs(values) * shrunk < SOLVED_TO_ALL_DIGITS] = 0.0
     tables = {
         name: tuple(LookUp(values[:, n, k].tolist()) for k in range(COUNT)) for n, name in enumerate(names)
     }
