@@ -84,7 +84,8 @@ VALUES = st.recursive(
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(TEXTS, inner, max_size=3),
     max_leaves=6,
 )
-DOCUMENTS = {name: dict(load(name).document) for name in names()}
+# The double butterfly takes a third of the second that is allowed when nothing is wrong with it.
+DOCUMENTS = {name: dict(load(name).document) for name in names() if name != "double-butterfly"}
 
 
 def a_document(data: st.DataObject) -> dict[str, Any]:
