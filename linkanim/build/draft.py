@@ -13,6 +13,7 @@ from typing import Any
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
+from linkanim.words import to_say
 
 # What has been drawn: joints with their places, bars, points, guides, and what else is attached to them.
 
@@ -24,7 +25,7 @@ KINDS = (
     "dampers",
 )
 """The kinds of tables that are drawn; besides there are "sides", "bodies" and "drive"."""
-UNTITLED = "New linkage"
+UNTITLED = to_say("New linkage")
 """The title of a linkage until its file is written; then its class is the title."""
 JOINT, DRIVE = "joints", ("drive", "input")
 """The kind of a joint, fixed or not, and the one thing that drives."""

@@ -111,7 +111,7 @@ def _of_the_window() -> Iterator[Sentence]:
             yield Sentence("subject", subject, None, f"keys: {subject}")
             for row in rows:
                 yield Sentence(None, row.words, None, f"keys: {row.keys}")
-                if re.search("[a-z]{2}", _KEY.sub("", row.keys)):
+                if has_words(row.keys):
                     yield Sentence(None, row.keys, None, f"keys: {row.keys}")
     for mode in KEYS_OF.values():
         for words, _, action in commands(mode):
@@ -154,6 +154,11 @@ _OF_A_SHEET = (
 
 
 _KEY = re.compile("Space|Enter|Tab|Shift|Ctrl|Alt|Esc|PgUp|PgDn|Del")
+
+
+def has_words(text: str) -> bool:
+    """Tell whether a text has words beside the names of keys, which are those on the keyboard."""
+    return re.search("[a-z]{2}", _KEY.sub("", text)) is not None
 
 
 def _inside(value: object, seen: set[int]) -> Iterator[object]:
