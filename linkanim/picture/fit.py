@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.linkage import Guided
 from linkanim.picture.bodies import ENDED, WHEELS
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import outlines
@@ -162,8 +161,9 @@ def _parts(figure: Figure, gauge: Gauge, moment: float | None, *, traced: bool) 
 
     for name in figure.in_view:
         yield around(path(name), bar)
-    guided = {one.name for one in figure.linkage.joints if isinstance(one, Guided) and one.line.on is None}
-    travelling = (one.name for one in figure.linkage.joints if one.travels)
+    slides = [slide for one in figure.linkage.joints for slide in one.slides if slide.point == one.name]
+    guided = {slide.point for slide in slides if slide.line.on is None}
+    travelling = {one.name: None for one in figure.linkage.joints if one.travels or one.name in guided}
     ended = (body.joints[-1] for body in figure.bodies if scene.style(body.name).outline in ENDED)
     for name in (*figure.fixed, *ended):
         yield around(path(name), foot)

@@ -359,6 +359,12 @@ class _KitBuilder:
     def _sliders(self) -> None:
         blocks = {body.slider: body.name for body in self.linkage.bodies if body.slider is not None}
         for joint in self.linkage.joints:
+            if sum(slide.point == joint.name for slide in joint.slides) > 1:
+                name = blocks.get(joint.name, joint.name)
+                raise NotFlat(
+                    f"{name} slides on two links at once, which no flat part does; "
+                    "pin it to one of them instead"
+                )
             if len(joint.slides) == 2:
                 bar, pin = joint.slides
                 self._yoke(bar, pin, blocks.get(joint.name, f"yoke {joint.name}"))

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from pictures import window
 
-from linkanim.picture.figure import figure
+from linkanim.picture.figure import DrawContext, figure
 from linkanim.picture.fit import NOTHING, Extent, around, each, fitted, of_linkage, together
+from linkanim.picture.fittings import rails_of
 from linkanim.picture.layout import Docked, gauge, layout, room_of, with_caption, with_words
+from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Box, Rect, View
 from linkanim.scenes import load
 
@@ -78,6 +80,18 @@ def test_a_still_extends_as_far_as_its_pose_and_its_whole_curves() -> None:
     assert cycle.high >= pose.high >= path[:, 1].max() - 1e-9
     assert pose.right - pose.left <= cycle.right - cycle.left
     assert pose.low <= path[:, 1].min() + 1e-9 < bare.low
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "knee-cylinder"])
+def test_a_still_holds_the_whole_of_a_guide_on_the_ground(name: str) -> None:
+    shown, thick = figure(load(name)), gauge(1.0, 400.0)
+    for moment in (0.0, shown.clearest, 1.5, 4.0):
+        view = fitted(of_linkage(shown, thick, moment, traced=False), ROOM)
+        lines = [loop for guide in rails_of(DrawContext(shown, view, thick, LIGHT)) for loop in guide]
+        assert lines
+        points = np.concatenate(lines)
+        assert ROOM.x <= points.real.min() <= points.real.max() <= ROOM.right
+        assert ROOM.y <= points.imag.min() <= points.imag.max() <= ROOM.bottom
 
 
 # The slots.

@@ -208,12 +208,13 @@ def apart(level: dict[int, int], one: set[int], other: set[int]) -> bool:
 
 
 FEW = ("crank-rocker", "drag-link", "double-rocker", "crank-shaper", "whitworth", "six-bar")
-OTHERS = tuple(name for name in names() if name not in FEW and name != "excavator")
+NOT_FLAT = ("excavator", "knee-cylinder", "oldham")
+OTHERS = tuple(name for name in names() if name not in FEW and name not in NOT_FLAT)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*FEW, *(pytest.param(name, marks=pytest.mark.long) for name in OTHERS)])
-def test_no_order_of_up_to_six_bodies_has_fewer_layers(name: str) -> None:
+def test_no_order_of_up_to_seven_bodies_has_fewer_layers(name: str) -> None:
     made = make(load(name))
     cycle = Cycle(made.scene, made.sizes.scale)
     parts = kit(cycle, made.sizes)
@@ -221,7 +222,7 @@ def test_no_order_of_up_to_six_bodies_has_fewer_layers(name: str) -> None:
         cycle, parts, Budget(layers.MOST_WORK), hole=made.sizes.hole, gap=made.sizes.gap, bridge=False
     )
     every = Tried(made, parts)
-    if len(every.moving) > 6:
+    if len(every.moving) > 7:
         assert not isinstance(found, Unstackable)
         return
     assert every.least() == (None if isinstance(found, Unstackable) else max(found.layers))

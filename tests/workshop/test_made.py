@@ -84,6 +84,13 @@ TABLE: dict[str, tuple[int, int, int] | str] = {
     "triple-rocker-out-in": "crank would meet the pin at O4",
     "triple-rocker-in-out": "coupler would meet the pin at O4",
     "andrews": (4, 8, 7),
+    "stephenson-2": (2, 6, 7),
+    "stephenson-3-link6": (3, 6, 7),
+    "double-butterfly": "wing2 would meet the pin at A",
+    "steering": (2, 6, 6),
+    "plotter": (3, 5, 5),
+    "knee-cylinder": "a cylinder drives it",
+    "oldham": "cross slides on two links at once, which no flat part does; pin it to one of them instead",
 }
 # Layers with a bridge; others stay as they are.
 BRIDGED = {
