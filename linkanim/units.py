@@ -169,6 +169,7 @@ SPEED = Units("an angular speed", {"rpm": _PI / 30, "rad/s": _ONE, "deg/s": _PI 
 TRAVEL_SPEED = Units(
     "a speed", {"mm/s": _ONE / 1000, "cm/s": _ONE / 100, "m/s": _ONE, "in/s": Fraction(254, 10000)}
 )
+EITHER_SPEED = Units("a speed", {**TRAVEL_SPEED.factors, **SPEED.factors})
 ANGULAR_ACCELERATION = Units("an angular acceleration", {"rad/s^2": _ONE, "deg/s^2": _PI / 180})
 _FASTEST = 1.05e6
 """The highest angular speed in rad/s: 1e7 rpm, with a margin for rounding."""

@@ -58,6 +58,7 @@ from linkanim.scenes.form import (
     FORCE,
     GRAVITY,
     INERTIA,
+    INPUT_SPEED,
     JOINT,
     LENGTH,
     MASS,
@@ -392,7 +393,7 @@ DRIVE = form(
     Field("joint", NAME, "the crank that is driven; of points, its pivot: the first one", None),
     Field(
         "speed",
-        SPEED,
+        INPUT_SPEED,
         'turns, or there and back; negative: clockwise; of a length, `"10 cm/s"`',
         "20 rpm",
         label="Input speed",

@@ -25,6 +25,7 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.intake import Intake
 from linkanim.scenes.file_form import GROUND
+from linkanim.scenes.form import OF_DRIVE
 from linkanim.units import LENGTH_UNITS, shown
 
 # What every such file holds, and the scene's document that says it.
@@ -454,7 +455,7 @@ def _names(ids: Iterable[str], titles: Mapping[str, str], letter: str) -> dict[s
     """Return a name for each: its title if no other has it, else what the file calls it, if that is one."""
     names: dict[str, str] = {}
     for n, one in enumerate(ids):
-        taken = {GROUND, *names.values()}
+        taken = {GROUND, OF_DRIVE, *names.values()}
         wished = (name for name in (titles.get(one, ""), one) if name.strip() and name not in taken)
         names[one] = next((name for name in wished if re.fullmatch(_SAFE_NAME, name)), f"{letter}{n}'")
     return names

@@ -92,6 +92,8 @@ class Table(Section):
     def _entry(self, name: str) -> str:
         if not 1 <= len(name) <= 32 or not name.isprintable() or "." in name or name != name.strip():
             raise self.error(name, "a name has 1 to 32 printable characters, no dot, no outer spaces")
+        if name == OF_DRIVE:
+            raise self.error(name, "is what the drive's own quantities are called; take another name")
         return name
 
     def joint(self, key: str, name: str) -> str:
@@ -102,6 +104,10 @@ class Table(Section):
                 key, f"no joint is called {shown(name)}{meant(name, names)}; there are {few(names)}"
             )
         return name
+
+
+OF_DRIVE = "input"
+"""What quantities of the drive begin with, as `input.angular_velocity`: no name in a scene."""
 
 
 # The type of a value of a scene file: how it is read, its schema, and what its numbers measure.
@@ -335,6 +341,12 @@ def _speed(value: object) -> Any:
     return units.angular_speed(value)
 
 
+def _speed_along(value: object) -> Any:
+    """Return what `_speed` does, for an input that is a length: what has neither unit is told of both."""
+    units.EITHER_SPEED.read(value)
+    return _speed(value)
+
+
 def _no_speed(speed: Any, _: str) -> str:
     """Say that a speed moves nothing, or is beyond what can be computed, if it is."""
     if isinstance(speed, TravelSpeed):
@@ -343,7 +355,18 @@ def _no_speed(speed: Any, _: str) -> str:
 
 
 ANGLE = _quantity("angle", 'an angle, `"30 deg"`', _with_unit(units.angle), _ANGLES, _many_turns)
-SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(_speed), _SPEEDS, _no_speed)
+SPEED, _SPEED_ALONG = (
+    _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(parse), _SPEEDS, _no_speed)
+    for parse in (_speed, _speed_along)
+)
+
+
+def _speed_of_input(table: Table, key: str) -> Any:
+    along = any(of_length in table for of_length in ("slide", "slider", "cylinder"))
+    return (_SPEED_ALONG if along else SPEED).read(table, key)
+
+
+INPUT_SPEED = replace(SPEED, read=_speed_of_input)
 
 
 def _above(measure: Measure, words: str, of: units.Units) -> ValueType:

@@ -14,14 +14,14 @@ from typing import Any
 
 from linkanim.bounds import MOST_NAMES
 from linkanim.scenes.file_form import SCENE_FILE, SHORTHANDS
-from linkanim.scenes.form import NEEDED, Field, Form, Named, Schema, ValueType
+from linkanim.scenes.form import NEEDED, OF_DRIVE, Field, Form, Named, Schema, ValueType
 
 # The JSON Schema of scene files, for editors: which keys are allowed where, and the types of their values.
 #
 # A schema cannot find problems of several places at once (a joint that does not exist, bars that do not
 # meet); `reading.problems` does.
 
-_NAME: Schema = {"maxLength": 32, "pattern": r"^[^.\s]([^.]*[^.\s])?$"}
+_NAME: Schema = {"maxLength": 32, "pattern": r"^[^.\s]([^.]*[^.\s])?$", "not": {"const": OF_DRIVE}}
 
 
 def schema_of(what: ValueType | Form | Named) -> dict[str, Any]:

@@ -240,6 +240,15 @@ def test_speeds_and_units_are_those_of_the_file(tmp_path: Path) -> None:
         assert (written["drive"]["speed"], written["length_unit"]) == (speed, unit)
 
 
+def test_a_link_called_as_the_drive_has_another_name(tmp_path: Path) -> None:
+    points = {"O": [0, 0], "A": [1, 2], "B": [9, 7], "C": [8, 0]}
+    links = {"ground": ["O", "C"], "input": ["O", "A"], "rod": ["A", "B"], "rocker": ["B", "C"]}
+    given = {"points": points, "links": links, "drive": {"joint": "O"}}
+    (tmp_path / "my.txt").write_bytes(as_pmks_plus(given))
+    assert main(["convert", str(tmp_path / "my.txt"), "-o", str(tmp_path / "out.toml")]) == 0
+    assert "input" not in linkanim.load(tmp_path / "out.toml").document["bodies"]
+
+
 def test_an_actuator_of_linkage_is_a_cylinder_that_grows_by_its_throw(tmp_path: Path) -> None:
     points = {"O": [0, 0], "Q": [110, 0], "G": [60, -40], "A": [20, 60], "B": [100, 70], "P": [60, 110]}
     links = {

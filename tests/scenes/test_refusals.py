@@ -317,6 +317,8 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("a dot in a name", LONG + "[joints.'a.b']\non = ['A', 'B']\nat = [1, 2]\n", 'joints."a.b"', "no dot"),
     ("a line in a name", LONG + "[joints.\"a\\nb\"]\non = ['A', 'B']\nat = [1, 2]\n", "joints", "printable"),
     ("an empty name", LONG + "[joints.'']\non = ['A', 'B']\nat = [1, 2]\n", "joints", "1 to 32"),
+    ("a body called so", LONG + "[bodies.input]\njoints = ['O2', 'A']\n", "bodies.input", "another"),
+    ("a joint called so", LONG + "[joints.input]\non = ['A', 'B']\nat = [1, 2]\n", "joints.input", "another"),
     # Not TOML at all.
     ("not TOML", FOUR_BAR + "crank 30\n", "is not TOML", "line 6"),
     ("a key twice", FOUR_BAR + "crank = 30\n", "is not TOML", "line 6"),
@@ -331,6 +333,25 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("a point on its joint", FOUR_BAR + "coupler_point = [0, 1e-12]\n", "a bar of 1e-12", "too short"),
     ("a length in light-years", FOUR_BAR.replace("30", "1e13"), "four-bar.crank", "1e+12 mm is the most"),
     ("a start turns away", FOUR_BAR + '[drive]\nstart = "36001 deg"\n', "drive.start", "whole turns out"),
+    (
+        "a bare speed of a cylinder",
+        LONG + '[drive]\nspeed = 30\ncylinder = { between = ["O4", "A"], from = 80, to = 100 }\n',
+        "drive.speed",
+        '"30 mm/s" or "30 cm/s"',
+    ),
+    (
+        "a speed of a slider in kilograms",
+        '[ground]\nO = [0, 0]\n[joints.S]\nline = { through = "O" }\n'
+        '[drive]\nspeed = "30 kg"\nslider = { joint = "S", from = 80, to = 100 }\n',
+        "drive.speed",
+        "mm/s, cm/s, m/s, in/s, rpm",
+    ),
+    (
+        "a bare speed of a crank",
+        FOUR_BAR + "[drive]\nspeed = 30\n",
+        "drive.speed",
+        'write an angular speed as "30 rpm" or "30 rad/s" or "30 deg/s"',
+    ),
     (
         "a cylinder on the crank's own pivot",
         LONG.replace("O4", "G = [0, 0]\nO4", 1)
