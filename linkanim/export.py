@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from io import StringIO
 from typing import Any
+from unicodedata import east_asian_width
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -61,9 +62,20 @@ def csv_rows(columns: Sequence[ArrayLike]) -> str:
 
 def columns(rows: Sequence[Sequence[str]]) -> str:
     """Return rows in aligned columns, the first set to the left, the others to the right."""
-    first, *others = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    form = "  ".join([f"{{:<{first}}}", *(f"{{:>{width}}}" for width in others)])
-    return "\n".join(form.format(*row).rstrip() for row in rows)
+    widths = [max(len(text) + _wide(text) for text in column) for column in zip(*rows, strict=True)]
+    sides = "<" + ">" * (len(widths) - 1)
+    return "\n".join(
+        "  ".join(
+            f"{text:{side}{width - _wide(text)}}"
+            for text, width, side in zip(row, widths, sides, strict=True)
+        ).rstrip()
+        for row in rows
+    )
+
+
+def _wide(text: str) -> int:
+    """Return how many letters of a text take two columns of a terminal, as Chinese ones do."""
+    return sum(east_asian_width(letter) in ("W", "F") for letter in text)
 
 
 def markdown(rows: Sequence[Sequence[str]]) -> str:

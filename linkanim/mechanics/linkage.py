@@ -292,7 +292,7 @@ class RRR(Joint):
     side: int = 1
     side_of: tuple[str, str, str] | None = None
 
-    sides: ClassVar[tuple[str, str]] = ("left", "right")
+    sides: ClassVar[tuple[str, str]] = to_say("left"), to_say("right")
     dyad: ClassVar[bool] = True
     sized: ClassVar[tuple[str, ...]] = ("lengths",)
 
@@ -358,7 +358,7 @@ class RRP(Guided):
     line: Line
     side: int = 1
 
-    sides: ClassVar[tuple[str, str]] = ("forward", "backward")
+    sides: ClassVar[tuple[str, str]] = to_say("forward"), to_say("backward")
     dyad: ClassVar[bool] = True
     sized: ClassVar[tuple[str, ...]] = ("length", "line")
 
@@ -850,7 +850,7 @@ class Extension(Travel):
     between: tuple[str, str]
 
     noun: ClassVar[str | None] = "cylinder"
-    moves: ClassVar[str] = "runs"
+    moves: ClassVar[str] = to_say("runs")
 
     @property
     def along(self) -> tuple[str, str]:

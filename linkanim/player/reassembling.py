@@ -85,7 +85,8 @@ class OpenClosures(OpenShelf):
     def texts(self, place: int) -> tuple[str, str, str]:
         """Return the texts by which a closure is found: its number, what it is in words, its class."""
         number, words, motion, class_name, curve = described(self.closures, place)
-        same = said(", curve {curve}", curve=curve) if curve.startswith("that") else ""
+        is_first = self.closures[place].curve in (None, place + 1)
+        same = "" if is_first else said(", curve {curve}", curve=curve)
         return number, f"{number}: {words}; {motion}{same}", class_name
 
     def takes(self, number: int) -> tuple[Action, ...]:

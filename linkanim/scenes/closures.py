@@ -25,6 +25,7 @@ from linkanim.scenes.editing import closure_choices, replaced, with_document
 from linkanim.scenes.reading import taken_together
 from linkanim.scenes.scene import Scene
 from linkanim.units import angle, degrees
+from linkanim.words import name_said, said, said_as
 
 MOST_DYADS = 10
 """The most dyads whose closures are tried: 1,024 ways to put them together."""
@@ -71,11 +72,11 @@ def closures(scene: Scene, progress: Callable[[int, int], None] | None = None) -
 def described(choices: Sequence[SceneClosure], place: int) -> tuple[str, ...]:
     """Return words for the closure at a place: number, how it is put together, input, class, curve."""
     one, number = choices[place], place + 1
-    sides = ", ".join(f"{joint} {side}" for joint, side in one.sides.items())
-    words = one.scene.info.input_words.partition(", and ")[0]
-    curve = "" if one.curve is None else "its own" if one.curve == number else f"that of {one.curve}"
-    pose = "as given" if number == 1 else "in another pose"
-    return str(number), sides or pose, words, one.scene.info.class_name, curve
+    info, sides = one.scene.info, (f"{name_said(joint)} {said(side)}" for joint, side in one.sides.items())
+    curve = said("its own") if one.curve == number else said("that of {number}", number=one.curve)
+    pose = said("as given") if number == 1 else said("in another pose")
+    way = said_as("list", ", ").join(sides) or pose
+    return str(number), way, info.motion_words, info.class_said, curve if one.curve else ""
 
 
 def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[Scene, dict[str, str]]]:

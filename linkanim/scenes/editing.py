@@ -428,7 +428,7 @@ def other_return(scene: Scene) -> Scene:
 def closure_name(scene: Scene) -> str | None:
     """Return the name of the first loop's closure (open, crossed, ...); None where it has no other."""
     choice = _choice(scene)
-    return choice and choice.name
+    return choice and said(choice.name)
 
 
 def ghost_of(scene: Scene) -> Scene | None:

@@ -93,6 +93,7 @@ from linkanim.scenes.form import (
 from linkanim.scenes.form import JOINTS as MEMBERS
 from linkanim.scenes.scene import Block, BodyStyle, FunctionPurpose, Outline, PosesPurpose, TimeRatioPurpose
 from linkanim.units import shown
+from linkanim.words import to_say
 
 # How joints are written: the fields of each kind, and of fixed pins. A kind of joint is one entry here.
 
@@ -630,7 +631,7 @@ _GROUND_ANGLE = Field(
     "ground_angle", ANGLE, "of O2–O4", "0 deg", label="Ground angle", drag="direction", spans=_GROUND_LINE
 )
 _COUPLER_POINT = _coupler_point("coupler_point", "Coupler point", "AB", "P")
-_OPEN = side("open", "crossed")
+_OPEN = side(to_say("open"), to_say("crossed"))
 
 SHORTHANDS: Mapping[str, Form] = {
     "four-bar": form(

@@ -84,6 +84,7 @@ def _of_tables() -> Iterator[Sentence]:
             # a field that holds no number is called by its key, and shown nowhere
             shown = (words for words in labels if words != one.key.replace("_", " ") or one.key in _NUMBERS)
             yield from (Sentence(None, words, None, f"field {one.key}") for words in shown)
+    yield from (Sentence("name", name, None, "SHORTHANDS") for name in file_form.SHORTHANDS)
     for file in ("page.html", "index.html"):
         yield from (Sentence(None, words, None, f"share/{file}") for words in page_words(packaged(file)))
     for file in ("lengths.js", "page.js"):

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from unicodedata import east_asian_width
 
 import pytest
 from pseudo import plain_words, spoken_pseudo, visible
@@ -202,3 +203,15 @@ def test_json_is_in_english_unless_the_command_line_names_a_language(
     assert main(["quiz", "press", "-n", "1", "--json", *words]) == 0
     (question,) = json.loads(capsys.readouterr().out)
     assert asked in question["question"]
+
+
+@pytest.mark.parametrize("name", ["klann", "crank-rocker", "knee-cylinder"])
+def test_closures_are_a_table_in_the_reader_s_language(
+    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("LANGUAGE", "zh_TW")
+    assert main(["closures", name]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) > 1
+    assert plain_words(" ".join(lines)) == set()
+    assert len({sum(2 if east_asian_width(one) in "WF" else 1 for one in line) for line in lines}) == 1

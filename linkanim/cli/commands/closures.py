@@ -17,8 +17,9 @@ from linkanim.recorder.recording import SUFFIXES
 from linkanim.scenes import load
 from linkanim.scenes.closures import SceneClosure, closures, described
 from linkanim.synthesis.answers import write
+from linkanim.words import said, to_say
 
-_TITLES = ("closure", "put together", "input", "class", "curve")
+_TITLES = to_say("closure"), to_say("put together"), to_say("input"), to_say("class"), to_say("curve")
 
 
 def run(options: Namespace) -> None:
@@ -34,7 +35,7 @@ def run(options: Namespace) -> None:
         print(json_text([_object(one, n) for n, one in enumerate(choices, start=1)], indent=2))
     else:
         rows = [described(choices, n) for n in range(len(choices))]
-        print(columns([_TITLES, *rows]))
+        print(columns([[*map(said, _TITLES)], *rows]))
     for path in paths:
         print(path)
     if picture:
