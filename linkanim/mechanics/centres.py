@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
+from linkanim.mechanics.groups import GroupSlider
 from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding
 from linkanim.mechanics.measures import as_complex, between, components, cross, over, size, steady
 from linkanim.mechanics.tolerances import ROUNDING, STRAIGHT
@@ -100,12 +101,13 @@ def joint_between(linkage: Linkage, one: Link, other: Link) -> str | None:
 def slide_between(linkage: Linkage, one: Link, other: Link) -> Slide | None:
     """Return the slide by which one of two links slides on the other; None where neither does.
 
-    A block whose pin runs in a second slot, too, turns against that slot, so its centre lies elsewhere.
+    A block whose pin runs in a second slot, too, turns against that slot, so its centre lies elsewhere; one
+    that turns on neither of its guides has a centre across each.
     """
     for block, guide in ((one, other), (other, one)):
         if block is not None and block.slider is not None:
-            slide = _slide_of(linkage, block.slider)
-            if _guides(linkage, guide, slide):
+            slides = _slides_of(linkage, block.slider)
+            if slide := next((slide for slide in slides if _guides(linkage, guide, slide)), None):
                 return slide
     return None
 
@@ -180,11 +182,16 @@ def _guides(linkage: Linkage, link: Link, slide: Slide) -> bool:
     return slide.axis is not None and set(slide.axis) <= _joints(linkage, link)
 
 
-def _slide_of(linkage: Linkage, point: str) -> Slide:
-    """Return how a block slides: by what its own joint says, or that of the bar whose slot it is in."""
-    own = linkage.joint(point).slides
-    every = (*own, *(slide for joint in linkage.joints for slide in joint.slides))
-    return next(slide for slide in every if slide.point == point)
+def _slides_of(linkage: Linkage, point: str) -> tuple[Slide, ...]:
+    """Return the slides on whose guides a block does not turn.
+
+    That is the first by what its own joint says, or by the bar whose slot it is in; of a group all of them.
+    """
+    joint = linkage.joint(point)
+    if isinstance(joint, GroupSlider) and joint.guided:
+        return joint.guided
+    every = (*joint.slides, *(slide for one in linkage.joints for slide in one.slides))
+    return (next(slide for slide in every if slide.point == point),)
 
 
 def _direction(motion: Any, slide: Slide) -> complex:
@@ -270,7 +277,7 @@ def _moved_with(linkage: Linkage, body: Body) -> tuple[str, ...]:
     """Return joints that tell how a body moves: two of its own, of a block those of its guide."""
     if body.slider is None:
         return body.joints[:2]
-    return body.slider, *(_slide_of(linkage, body.slider).axis or ())
+    return body.slider, *(_slides_of(linkage, body.slider)[0].axis or ())
 
 
 def _rate(motion: Any, body: Body, rates: tuple[str, str]) -> Any:
@@ -278,7 +285,7 @@ def _rate(motion: Any, body: Body, rates: tuple[str, str]) -> Any:
     points, turning = rates
     if body.slider is None:
         return getattr(motion, turning)[body.name]
-    guide = _slide_of(motion.mechanism.linkage, body.slider)
+    guide = _slides_of(motion.mechanism.linkage, body.slider)[0]
     if guide.axis is None:
         return 0.0 * motion.phase
     arm, moving = between(motion.position, guide.axis), between(getattr(motion, points), guide.axis)

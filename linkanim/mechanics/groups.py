@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -260,8 +260,10 @@ class GroupPoint(Joint):
     @property
     def slides(self) -> tuple[Slide, ...]:
         """Itself, along each line of a link on which it slides."""
-        own = (slide for slide in self.group.own_slides if slide.point == self.name)
-        lines = (self.group.line(slide) for slide in own)
+        return self._along(slide for slide in self.group.own_slides if slide.point == self.name)
+
+    def _along(self, slides: Iterable[GroupSlide]) -> tuple[Slide, ...]:
+        lines = map(self.group.line, slides)
         return tuple(line.guiding(self.name) for line in lines if line)
 
     @property
@@ -287,6 +289,12 @@ class GroupSlider(GroupPoint):
     def line(self) -> Line:
         """The line of travel."""
         return self.slides[0].line
+
+    @property
+    def guided(self) -> tuple[Slide, ...]:
+        """The slides on whose guides the block does not turn."""
+        own = (slide for slide in self.group.own_slides if slide.point == self.name)
+        return self._along(slide for slide in own if not slide.turns)
 
 
 def frame_of(member: GroupLink) -> RigidBody:

@@ -133,6 +133,16 @@ def test_a_centre_is_where_the_lines_of_its_steps_meet(name: str, phase: float) 
     assert len(shown) == len(finite)
 
 
+def test_a_block_that_turns_on_neither_of_two_guides_has_a_centre_across_each() -> None:
+    scene = load("oldham")
+    first, *steps = (step.words for step in steps_of(scene, "centres", 0.7))
+    assert first.endswith("Across a guide the centre of what slides is infinitely far: P₂₄ and P₃₄.")
+    assert "it lies on the line through P₁₃ towards P₃₄, too: there it is" in steps[1]
+    centres = CentrePairs(figure(scene)).of(scene.pose(0.7, 1))
+    along = centres["2", "4"].direction / centres["3", "4"].direction
+    assert abs(along.real) < 1e-12 * abs(along)
+
+
 def test_two_centres_at_infinity_lead_to_a_third_one() -> None:
     scene = load("elliptic-trammel")
     words = [step.words for step in steps_of(scene, "centres", 0.7)]
