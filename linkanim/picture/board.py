@@ -124,7 +124,7 @@ class Board:
             if self.type.width(text, size) <= room:
                 return text
         name = words[-1]
-        kept = (f"{name[: n - n // 2]}…{name[-(n // 2) :]}" for n in range(len(name) - 1, 1, -1))
+        kept = (f"{name[: n - n // 2]}…{name[len(name) - n // 2 :]}" for n in range(len(name) - 1, 0, -1))
         return next((text for text in kept if self.type.width(text, size) <= room), "")
 
     def ending(self, text: str, size: int, room: float) -> str:

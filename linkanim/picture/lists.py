@@ -19,7 +19,7 @@ from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import box, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
-from linkanim.words import said, to_say
+from linkanim.words import said, said_as, to_say
 
 # What all lists have: a title, rows with a bar behind the chosen one, words below.
 
@@ -202,8 +202,10 @@ _ABBREVIATED = {
     **{"acceleration": "accel.", "angular": "ang.", "tangential": "tang.", "kin. ": ""},
 }
 """How words of quantities are abbreviated where room is short, one after the other."""
-_NUMBER, _USUAL = r"[−\d.∞]+", "−0.8888"
-"""A number in a value, and one as wide as most."""
+_OWNER = re.compile(r"^.*?(: |：)")
+"""What stands before a quantity's own words."""
+_NUMBER, _USUAL = r"(?<![×\d])[−\d.∞]+", "−0.8888"
+"""A number in a value, without its power of ten, and one as wide as most."""
 _GAP = 0.7
 """The gaps between words, symbol and value, in heights of their text."""
 _BOX = 2.5
@@ -281,7 +283,10 @@ class Quantities(ListPanel):
             taken += board.type.width(symbol, size) + _GAP * size
             board.write(sheet, symbol, (right - taken, y), size=size, colour=board.theme.dim)
         room = right - begin - (taken + _GAP * size if told else 0.0)
-        board.write(sheet, board.fitting([*_shorter(words)], size, room), (begin, y), size=size)
+        ways = [*_shorter(words)]
+        if symbol:  # which says whose the quantity is
+            ways.append(_OWNER.sub("", ways[-1]))
+        board.write(sheet, board.fitting(ways, size, room), (begin, y), size=size)
 
 
 def _scroll_bar(board: Board, sheet: pygame.Surface, track: Rect, rows: range, count: int) -> None:
@@ -298,7 +303,8 @@ def _scroll_bar(board: Board, sheet: pygame.Surface, track: Rect, rows: range, c
 def _shorter(words: str) -> Iterator[str]:
     """Yield a quantity's words, then with more and more of them abbreviated."""
     yield words
-    for word, short in _ABBREVIATED.items():
+    coefficient = said("kinematic coefficient"), said_as("short", "coeff.")
+    for word, short in (*_ABBREVIATED.items(), coefficient):
         if word in words:
             words = words.replace(word, short)
             yield words

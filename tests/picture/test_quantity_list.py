@@ -16,6 +16,7 @@ from linkanim.picture.lists import Quantities
 from linkanim.picture.raster import Colour
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
+from linkanim.words import speaking
 
 ROWS = tuple((f"Link {n}: angle", f"θ{n} (°)") for n in range(60))
 HINT = "Enter charts   Esc closes"
@@ -147,6 +148,25 @@ def test_the_words_of_quantities_are_abbreviated_before_they_are_cut() -> None:
     board = Noted(layout((1280, 720), docked=Docked(listed=1)), Type(), LIGHT)
     Quantities(tuple((words, "h′₂ = 0.1089 rad/rad²") for words in ABBREVIATED), 0).drawn(board)
     assert {*ABBREVIATED.values()} <= {*board.lines}
+
+
+NARROW = {
+    # language, size of the window, words: what is written beside a symbol and a value that are long
+    "English": ("en", (1280, 720), "Upper: second kinematic coefficient", "2nd coeff."),
+    "Chinese": ("zh_TW", (1280, 720), "上：二階運動係數", "二階係數"),
+    "Simplified Chinese": ("zh_CN", (1280, 720), "上：二阶运动系数", "二阶系数"),
+    "Chinese, small": ("zh_TW", (640, 360), "上：二階運動係數", "二…"),
+}
+
+
+@pytest.mark.parametrize("case", NARROW)
+def test_where_no_name_has_room_a_quantity_s_own_words_stay(case: str) -> None:
+    language, size, words, written = NARROW[case]
+    told = "h′_{upper} = 4.934×10⁻⁶ rad/mm²"
+    with speaking(language):
+        board = Noted(layout(size, docked=Docked(listed=1)), Type(), LIGHT)
+        Quantities(((words, told),) * 40, 0, boxes=(False,) * 40).drawn(board)
+    assert written in board.lines
 
 
 def test_where_fewer_than_four_rows_would_be_left_the_hint_gives_way() -> None:
