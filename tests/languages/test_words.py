@@ -11,7 +11,8 @@ import pytest
 from catalogue import TRANSLATED, first, path_of, read, sentences
 
 from linkanim import words
-from linkanim.words import language_named, language_of, said, speaking
+from linkanim import words as spoken_words
+from linkanim.words import language_named, language_of, row_said, said, speaking
 
 _PLACE = re.compile(r"\{[a-z_]*\}")
 
@@ -113,3 +114,35 @@ def test_what_the_program_reads_is_what_translators_wrote(language: str) -> None
         elif one:
             found = compiled.pgettext(message.context, one) if message.context else compiled.gettext(one)
             assert found == (written or one)
+
+
+ROWS = {
+    "none": ([], "", ""),
+    "one": (["a"], "a", "a"),
+    "two": (["a", "b"], "a and b", "a與b"),
+    "three": (["a", "b", "c"], "a, b and c", "a、b與c"),
+}
+"""Words in a row, in English and in Chinese."""
+
+
+@pytest.mark.parametrize("case", ROWS)
+def test_words_stand_in_a_row_as_the_language_has_it(case: str) -> None:
+    words, english, chinese = ROWS[case]
+    assert row_said(words) == english
+    with speaking("zh_TW"):
+        assert row_said(words) == chinese
+
+
+def test_sentences_follow_one_another_as_the_language_has_it() -> None:
+    assert (
+        spoken_words.sentences(),
+        spoken_words.sentences("", "One."),
+        spoken_words.sentences("One.", "", "Two."),
+    ) == ("", "One.", "One. Two.")
+    with speaking("zh_TW"):
+        assert spoken_words.sentences("一。", "", "二。") == "一。二。"
+
+
+def test_braces_are_places_only_where_there_are_parts() -> None:
+    assert said("v_{B}") == "v_{B}"
+    assert said("v_{{B}} of {bar}", bar="A–B") == "v_{B} of A–B"

@@ -347,7 +347,10 @@ def held(form: str, seed: int) -> None:
         shown = found.position, found.velocity, found.acceleration
         for order, (own, solved) in enumerate(zip(true, shown, strict=True)):
             off = max(float(abs(own[name] - mp.mpc(*map(float, solved[name][n])))) for name in bars.free)
-            assert off <= (1e-14, 1e-14, 1e-12)[order] * scales[order], (form, seed, phase, order)
+            bound = (1e-14, 1e-14, 1e-12)[order] * scales[order]
+            if order < 2:  # half a last digit of the phase is worth more where a fast linkage turns back
+                bound = max(bound, np.spacing(phase) / 2 * scales[order + 1])
+            assert off <= bound, (form, seed, phase, order)
 
 
 BESIDE_LIMITS = {"of 0.2 degrees' range": 1393, "with two closures near each other": 27}
