@@ -96,6 +96,9 @@ SAMPLE = {
 SOLVED_TOGETHER = {"double-butterfly", "knee-cylinder", "steering", "stephenson-3-link6"}
 """Scenes that take several times as long as others; two more like them are quick."""
 
+BESIDE_LIMITS = {"bar_that_limits_the_input", "slot_that_limits_the_input", "at_a_change_point"}
+"""What makes random linkages that are looked for long, to stand where they do."""
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -114,7 +117,10 @@ def _leave_to_long_runs(items: list[pytest.Item]) -> None:
     seen = Counter[str]()
     for item in items:
         about = item.callspec.params if hasattr(item, "callspec") else {}
-        if not SOLVED_TOGETHER.isdisjoint({value for value in about.values() if isinstance(value, str)}):
+        named = {
+            value if isinstance(value, str) else getattr(value, "__name__", "") for value in about.values()
+        }
+        if not named.isdisjoint(SOLVED_TOGETHER | BESIDE_LIMITS):
             item.add_marker(pytest.mark.slow)
         if item.get_closest_marker("sampled") and about.get("name", about.get("scene")) not in SAMPLE:
             item.add_marker(pytest.mark.long)

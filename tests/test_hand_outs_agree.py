@@ -88,6 +88,7 @@ def _grain(number: str) -> float:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_number_is_the_same_in_figure_text_results_key_and_tables(name: str) -> None:
     scene = load(name)
     phase = still_phase(scene)

@@ -129,6 +129,7 @@ def is_third_party(name: str) -> bool:
     return name.split(".")[0] not in {"linkanim", "__future__", *sys.stdlib_module_names}
 
 
+@pytest.mark.slow
 def test_a_file_imports_only_from_its_own_room_and_those_above() -> None:
     lower = []
     for path in SOURCES:
@@ -224,6 +225,7 @@ def test_a_class_has_one_name_and_a_name_one_class() -> None:
     assert {name: paths for name, paths in homes.items() if len(paths) > 1} == {}
 
 
+@pytest.mark.slow
 def test_a_module_gives_a_name_to_one_thing_only() -> None:
     twice = []
     for path in SOURCES:

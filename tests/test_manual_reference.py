@@ -249,7 +249,7 @@ BLOCKS: Mapping[str, tuple[str, Callable[[Path], str]]] = {
 
 
 @pytest.mark.parametrize(
-    "block", [pytest.param(one, marks=[pytest.mark.slow] * (one == "formats")) for one in BLOCKS]
+    "block", [pytest.param(one, marks=[pytest.mark.long] * (one == "formats")) for one in BLOCKS]
 )
 def test_a_page_of_the_reference_is_what_the_program_s_tables_say(block: str, tmp_path: Path) -> None:
     name, made = BLOCKS[block]

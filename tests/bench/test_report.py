@@ -104,6 +104,7 @@ def test_the_json_is_strict_and_whole() -> None:
     assert newton["cases"]["a hard case"]["error"] is None
 
 
+@pytest.mark.slow
 def test_a_run_asks_every_method_of_a_mechanism_every_case_and_times_it() -> None:
     easy = replace(FOUR_BAR.easy, inputs=FOUR_BAR.easy.inputs[:3])
     short = CaseSet("four-bar", easy, (replace(easy, name="as hard"),))

@@ -108,7 +108,17 @@ def reread(scene: Scene) -> Scene:
     return scene_from(parse(text(scene), "again"), name=scene.name, where="again")
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+EVERY = [
+    pytest.param(
+        case,
+        id=case.name,
+        marks=[pytest.mark.slow] * (case.name.startswith(("double butterfly", "a block with two pins"))),
+    )
+    for case in CASES
+]
+
+
+@pytest.mark.parametrize("case", EVERY)
 def test_what_no_chain_of_dyads_is_moves_and_is_written(case: Case) -> None:
     building, scene = built(case)
     told = dict(scene.lines)
@@ -122,7 +132,7 @@ def test_what_no_chain_of_dyads_is_moves_and_is_written(case: Case) -> None:
     assert building.draft == again.draft
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", EVERY)
 def test_every_stated_length_holds_where_it_is_drawn_and_where_it_runs(case: Case) -> None:
     building, scene = built(case)
     for n in range(7):
@@ -132,7 +142,7 @@ def test_every_stated_length_holds_where_it_is_drawn_and_where_it_runs(case: Cas
             assert dist(one, other) == pytest.approx(table["length"], abs=1e-11)
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", EVERY)
 def test_a_file_opened_on_the_sheet_is_that_scene_and_is_drawn_on(case: Case) -> None:
     scene = reread(built(case)[1])
     building = building_of(scene)
@@ -212,6 +222,7 @@ def test_a_slider_drives_links_that_are_solved_together() -> None:
     assert again.made.scene.info.lines == scene.info.lines
 
 
+@pytest.mark.slow
 def test_the_crank_stays_where_it_is_drawn_or_where_its_start_is_typed() -> None:
     building, _ = built(CASES[2])
     assert building.draft.places["A"] == pytest.approx((-21, 194), abs=0.5)

@@ -66,7 +66,15 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(
+            name, marks=[pytest.mark.slow] * (name in ("a long table of many columns", "a long list"))
+        )
+        for name in REFUSED
+    ],
+)
 def test_what_is_too_much_is_refused_with_the_bound(
     name: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -32,9 +32,13 @@ COUNTED: dict[str, tuple[list[str], str]] = {
     "record": (["record", "crank-rocker", "-o", "a.gif", "--size", "64x64", "--seconds", "0.2"], "frames"),
     "quiz": (["quiz", "press", "-n", "1", "-o", "quiz.html"], "questions"),
 }
+SLOW = {"path", "path --front", "make", "report"}
 
 
-@pytest.mark.parametrize(("words", "unit"), COUNTED.values(), ids=COUNTED)
+@pytest.mark.parametrize(
+    ("words", "unit"),
+    [pytest.param(*row, id=name, marks=[pytest.mark.slow] * (name in SLOW)) for name, row in COUNTED.items()],
+)
 @pytest.mark.parametrize("seen", [True, False], ids=["after a while", "soon done"])
 @pytest.mark.thinned(2)
 def test_a_bar_is_drawn_on_a_terminal_after_a_while(

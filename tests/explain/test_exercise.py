@@ -150,6 +150,7 @@ def test_an_input_that_swings_is_given_by_its_angle_and_velocity(capsys: pytest.
     assert "The velocity of the input is constant." in sheet
 
 
+@pytest.mark.slow
 def test_figures_of_versions_share_no_id(tmp_path: Path) -> None:
     out = tmp_path / "sheet.html"
     words = ["crank-rocker", "--angle", "60 deg", "--exercise", "--versions", "2"]

@@ -469,6 +469,7 @@ LONG_SLOT = {
 }
 
 
+@pytest.mark.slow
 def test_a_bar_far_longer_than_the_others_does_not_take_their_digits() -> None:
     found = solution(_request(scene_from(LONG_SLOT, name="my", where="my.toml"), 218.6607))
     level = {one.token: one.value.value for one in found.results}

@@ -37,6 +37,7 @@ def _leaves(found: Solution) -> Iterator[Formula]:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_symbol_has_its_part_of_the_figure(name: str) -> None:
     scene = load(name)
     found = solution(PoseRequest(scene, "phase", 1.0, scene.linkage.drive.speed))

@@ -56,6 +56,7 @@ def test_a_linkage_with_other_lengths_has_no_such_chapter(tmp_path: Path) -> Non
     assert synthesis(linkanim.load("press"), names_of(figure(linkanim.load("press")))) == ()
 
 
+@pytest.mark.slow
 def test_an_exercise_leaves_the_numbers_open_and_the_page_has_the_construction(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -318,6 +318,7 @@ def test_between_two_limits_it_comes_back_on_the_other_closure(seed: int) -> Non
 
 @pytest.mark.slow
 @pytest.mark.parametrize("first", range(20, 32, 3))
+@pytest.mark.thinned(3)
 def test_random_ones_do(first: int) -> None:
     for seed in range(first, first + 3):
         between_limits(seed)

@@ -26,6 +26,7 @@ floats = st.floats(-1e100, 1e100, allow_subnormal=False)
 
 
 @given(floats, floats)
+@pytest.mark.slow
 def test_a_sum_and_what_it_lost_are_exactly_the_sum(a: float, b: float) -> None:
     total, lost = two_sum(a, b)
     assert Fraction(total) + Fraction(lost) == Fraction(a) + Fraction(b)

@@ -97,6 +97,7 @@ def test_each_closure_is_the_one_of_its_points(places: Mapping[str, tuple[float,
     assert np.hypot(*(found["B"] - other["B"])) > 5
 
 
+@pytest.mark.slow
 def test_a_double_butterfly_turns_fully_as_published() -> None:
     scene = read(BUTTERFLY)
     assert scene.info.full_turn
@@ -375,7 +376,7 @@ def test_a_random_linkage_keeps_its_bars_and_moves_as_fifty_digits_say(form: str
         held(form, 0)
 
 
-@pytest.mark.thinned(7)
+@pytest.mark.thinned(13)
 @pytest.mark.slow
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("first", range(1, SEVERAL, FEW))

@@ -97,7 +97,13 @@ def dyads(scene: Scene) -> int:
     return sum(joint.dyad for joint in scene.linkage.joints)
 
 
-@pytest.mark.parametrize(("document", "links", "count"), CASES.values(), ids=CASES)
+@pytest.mark.parametrize(
+    ("document", "links", "count"),
+    [
+        pytest.param(*row, id=name, marks=[pytest.mark.slow] * (name in ("beside", "behind")))
+        for name, row in CASES.items()
+    ],
+)
 def test_only_what_has_to_be_is_solved_together(document: Mapping[str, Any], links: str, count: int) -> None:
     scene, whole = read(document), read(document, together=True)
     assert dict(scene.info.lines)["solved together"] == links
@@ -153,6 +159,7 @@ def test_where_a_dyad_behind_a_group_stops_the_input_all_is_solved_together() ->
         assert np.abs(np.hypot(*(found[p] - found[q]).T) - length).max() < 1e-13 * 60
 
 
+@pytest.mark.slow
 def test_forces_of_dyads_and_group_are_one_balance() -> None:
     document, *_ = CASES["both"]
     loaded = {

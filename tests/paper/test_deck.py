@@ -112,6 +112,7 @@ def test_what_slides_and_limits_cannot_be_is_said_and_nothing_is_written(
     assert not any(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_recording_keeps_to_the_largest_size_that_is_allowed(tmp_path: Path) -> None:
     path = tmp_path / "a.gif"
     assert main(["record", "kite", "-o", str(path), "--size", "320x180", "--max-size", "40kB"]) == 0

@@ -446,6 +446,7 @@ def test_of_joints_that_are_not_traced_and_of_poles_the_tables_tell() -> None:
 
 
 @pytest.mark.usefixtures("anywhere")
+@pytest.mark.slow
 def test_numbers_on_the_page_have_true_minus_signs(tmp_path: Path) -> None:
     into = tmp_path / "report"
     options = ["--angles=-60 deg", "--speeds=-20 rpm"]
@@ -629,6 +630,7 @@ def test_a_scene_of_that_name_in_a_file_has_no_printed_values(tmp_path: Path) ->
 
 
 @pytest.mark.usefixtures("anywhere")
+@pytest.mark.slow
 def test_an_accelerated_input_is_in_tables_charts_and_words(tmp_path: Path) -> None:
     asked = ["report", "crank-rocker", "--angles", "60 deg", "--speeds", "10 rad/s"]
     assert main([*asked, "--acceleration", "30 rad/s^2", "-o", str(tmp_path)]) == 0
@@ -758,6 +760,7 @@ def test_one_speed_is_named_for_polygons(tmp_path: Path, capsys: pytest.CaptureF
 @pytest.mark.usefixtures("anywhere")
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
+@pytest.mark.thinned(3)
 def test_every_chart_is_discussed_in_sentences_and_only_places_have_a_time_ratio(name: str) -> None:
     scene = load(name)
     report = Report(scene, usual_instants(scene)[:1], PACES[:2])

@@ -143,6 +143,7 @@ def unsaid(picture: Picture) -> Iterator[str]:
 @pytest.mark.parametrize("size", [(1280, 720), pytest.param((640, 360), marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
+@pytest.mark.thinned(3)
 def test_no_dimension_is_misread_or_lacks(name: str, size: tuple[int, int]) -> None:
     scene, look, found = load(name), Look(names=2), dict[str, list[str]]()
     phases = [still_phase(scene), 0.4 * scene.period]

@@ -285,6 +285,7 @@ def test_off_a_disc_there_is_no_gap_and_no_overlap(way: complex, reach: float) -
     assert abs(box.nearest(0j)) == pytest.approx(reach, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_name_without_a_place_has_a_leader_in_a_still_and_is_left_out_or_listed_in_motion() -> None:
     """Dimensions are listed in both, the others are said somewhere."""
     scene, size = load("andrews"), (320, 180)

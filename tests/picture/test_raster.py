@@ -264,6 +264,7 @@ def test_parts_worked_out_a_few_layers_at_a_time_are_the_same_bytes(
     assert pieces.get_buffer().raw == whole.get_buffer().raw
 
 
+@pytest.mark.slow
 def test_many_layers_take_no_more_memory_than_some(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(raster, "_MOST_AT_ONCE", 10 * 64 * 64)
     peaks = []

@@ -146,6 +146,7 @@ def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each
             assert (rows != rows[0, 0]).any()
 
 
+@pytest.mark.slow
 def test_a_frame_that_reads_a_mechanism_moves_no_other() -> None:
     painter, surface = ShelfPrinter(), pygame.Surface((1280, 720), 0, 32)
     shots = []

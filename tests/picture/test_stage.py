@@ -48,6 +48,7 @@ def counted(faults: list[Fault]) -> dict[str, int]:
     ],
 )
 @pytest.mark.sampled
+@pytest.mark.thinned(3)
 def test_a_moving_picture_breaks_no_rule(name: str, look: str, size: tuple[int, int]) -> None:
     scene = load(name)
     assert not counted([*of_moving(scene, size, looks(scene)[look])])

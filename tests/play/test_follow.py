@@ -273,6 +273,7 @@ def test_it_is_played_by_mouse_and_keys(player: Player) -> None:
     assert not isinstance(player.state.game, FollowRun)
 
 
+@pytest.mark.slow
 def test_another_track_or_level_is_chosen_before_it_starts(player: Player) -> None:
     for _ in range(len(tracks())):
         player.press(pygame.K_DOWN)

@@ -244,6 +244,7 @@ def expected(question: QuizQuestion) -> Found:
     return Found(question.text, shown, question.right, tuple(told), question.why, pictures)
 
 
+@pytest.mark.slow
 def test_questions_come_back_from_moodle_in_their_categories() -> None:
     found = read_moodle(moodle(ROUNDS))
     assert list(found) == ["$course$/top/linkanim/Four-bars", "$course$/top/linkanim/A//B & <C>"]

@@ -213,6 +213,7 @@ def test_thousands_of_questions_about_random_scenes_hold_against_fifty_digits(pa
     assert about_random(part, PARTS, MORE, MANY_EACH) == []
 
 
+@pytest.mark.slow
 def test_every_kind_is_asked() -> None:
     scenes = [
         load(name) for name in ("crank-rocker", "double-rocker", "inverted-slider-crank", "slider-crank")
@@ -225,6 +226,7 @@ def test_every_kind_is_asked() -> None:
     assert all({*kind.levels} <= {*LEVELS} for kind in KINDS.values())  # no other level is played
 
 
+@pytest.mark.slow
 def test_right_answers_stand_in_every_place_and_no_question_comes_twice_in_a_row() -> None:
     found = questions((load("press"),), 12, 5)
     assert len({(question.kind, question.subject) for question in found}) == 12
@@ -241,6 +243,7 @@ def test_a_round_is_printed_as_a_list(capsys: pytest.CaptureFixture[str]) -> Non
     assert all(0.0 <= one["phase"] < tau * 2 and one["scene"] == "crank-rocker" for one in found)
 
 
+@pytest.mark.slow
 def test_a_chapter_is_asked_scene_by_scene_on_a_sheet_with_its_key_apart(tmp_path: Path) -> None:
     sheet = tmp_path / "sheet.html"
     assert main(["quiz", "exact and scaling", "-n", "5", "-o", str(sheet)]) == 0
@@ -254,6 +257,7 @@ def test_a_chapter_is_asked_scene_by_scene_on_a_sheet_with_its_key_apart(tmp_pat
         assert f">{load(name).title}</text>" not in text  # no words in the figure that tell the answer
 
 
+@pytest.mark.slow
 def test_a_sheet_has_lines_for_a_name_and_its_last_two_questions_stand_together(tmp_path: Path) -> None:
     sheet = tmp_path / "sheet.html"
     assert main(["quiz", "slider-crank", "-n", "11", "-o", str(sheet)]) == 0
@@ -267,6 +271,7 @@ def test_a_sheet_has_lines_for_a_name_and_its_last_two_questions_stand_together(
 
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
+@pytest.mark.thinned(3)
 def test_a_link_that_is_asked_about_has_its_name_in_the_figure_or_below_it(name: str) -> None:
     scene = load(name)
     for question in questions((scene,), 10, 3):

@@ -153,6 +153,7 @@ LIST = Docked(listed=2, bar=True)
         ("crank-rocker", (Action("names"), CHART)),
     ],
 )
+@pytest.mark.thinned(2)
 def test_charts_and_polygons_come_in_with_the_view_and_cut_nothing_off(
     name: str, actions: tuple[Action, ...], size: tuple[int, int]
 ) -> None:
@@ -248,6 +249,7 @@ def coloured(frame: Frame) -> bytes:
     return np.frombuffer(frame, np.uint8).reshape(-1, 4)[:, :3].tobytes()
 
 
+@pytest.mark.slow
 def test_the_frames_of_a_tape_are_the_same_in_any_order_and_from_a_fresh_painter() -> None:
     actions = [(1 + 5 * n, action) for n, action in enumerate(TOUR)]
     tape = Tape(begin(load("crank-rocker")), 5 * len(TOUR) + 30, tuple(actions))
@@ -262,6 +264,7 @@ def test_the_frames_of_a_tape_are_the_same_in_any_order_and_from_a_fresh_painter
         assert coloured(TapeFrames(tape, 25.0, (320, 180)).draw(n)) == frames[n], n
 
 
+@pytest.mark.slow
 def test_equal_states_are_equal_pictures() -> None:
     with display.opened((320, 180)):
         states = toured()
@@ -285,6 +288,7 @@ def test_a_blank_sheet_keeps_its_picture_also_with_instant_centres() -> None:
     assert framing.fitting(blank, (640, 360)) is once
 
 
+@pytest.mark.slow
 def test_while_a_length_changes_all_stands_where_it_did_and_is_placed_anew_once_that_is_over() -> None:
     """However often the key repeats: no frame of it weighs where the names would be best."""
     framing, size = Framing(window=True), (640, 360)

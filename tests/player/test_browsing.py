@@ -488,6 +488,7 @@ def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
     assert last.scene.name == names()[1]
 
 
+@pytest.mark.slow
 def test_a_list_of_very_many_entries_is_filtered_once_for_its_letters(press: State) -> None:
     entries = Entries("Many", tuple(ListRow(f"s{n:05}", "", Action("note", "")) for n in range(50_000)))
     opened = press.with_mode(Listing(0, others=entries))
@@ -502,6 +503,7 @@ def test_a_list_of_very_many_entries_is_filtered_once_for_its_letters(press: Sta
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (1080, 2160)])
+@pytest.mark.slow
 def test_every_row_of_k_in_sight_has_its_value(size: tuple[int, int]) -> None:
     """In a tall window more rows are in sight than had values."""
     with screen.opened(size):

@@ -91,6 +91,7 @@ def test_watts_six_bar_is_two_dyads(hand: Hand) -> None:
     assert holds(hand)
 
 
+@pytest.mark.slow
 def test_a_triad_runs_is_undone_saved_and_opened_again(hand: Hand, here: Path) -> None:
     hand.stephenson()
     building = hand.sheet.building
@@ -126,6 +127,7 @@ def test_a_triad_runs_is_undone_saved_and_opened_again(hand: Hand, here: Path) -
     with_file.window.close()
 
 
+@pytest.mark.slow
 def test_a_number_of_a_triad_is_typed_in_the_list_of_dimensions(hand: Hand) -> None:
     hand.stephenson()
     hand.press(pygame.K_e)
@@ -142,6 +144,7 @@ def test_a_number_of_a_triad_is_typed_in_the_list_of_dimensions(hand: Hand) -> N
     assert holds(hand)
 
 
+@pytest.mark.slow
 def test_a_motor_is_dragged_onto_a_joint_between_moving_links(hand: Hand) -> None:
     hand.four_bar()
     hand.drop_motor("B")

@@ -70,6 +70,7 @@ def sitting(here: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Sitting]:
 asked: list[str] = []
 
 
+@pytest.mark.slow
 def test_a_lecturer_s_list_takes_at_most_twelve_gestures(sitting: Sitting) -> None:
     one = sitting
     one.key("Enter")  # the press, running

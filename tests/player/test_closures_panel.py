@@ -42,6 +42,7 @@ def same(one: Scene, other: Scene) -> bool:
     return one.linkage == other.linkage
 
 
+@pytest.mark.slow
 def test_the_key_shows_each_closure_once_with_its_words(player: Player) -> None:
     scene = player.state.scene
     found = opened(player)
@@ -95,6 +96,7 @@ def test_menu_and_find_list_it(player: Player) -> None:
     assert len(the(player.state, OpenClosures).closures) == 3
 
 
+@pytest.mark.slow
 def test_links_that_are_solved_together_have_theirs(player: Player, here: Path) -> None:
     (here / "triad.toml").write_text(STEPHENSON, encoding="utf-8")
     triad = Player(begin(load(here / "triad.toml")))

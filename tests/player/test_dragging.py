@@ -343,6 +343,7 @@ def test_what_is_dragged_aside_goes_with_the_mouse(player: Player) -> None:
     assert player.window.screen.pixel(0.0, 0.0) == pytest.approx((x + 20, y + 12), abs=1.0)
 
 
+@pytest.mark.slow
 def test_linkage_chart_list_and_dimensions_follow_the_hand_in_every_frame(player: Player) -> None:
     pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
     player.window.state = replace(player.state, look=Look(chart="P.velocity", names=2))

@@ -456,6 +456,7 @@ def test_the_points_of_a_pose_are_listed_and_edited() -> None:
     assert after(edited, "undo").scene.linkage == state.scene.linkage
 
 
+@pytest.mark.slow
 def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
     state = crank
     for _ in range(52):

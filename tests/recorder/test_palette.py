@@ -57,6 +57,7 @@ def test_flat_colours_are_exact_among_thousands() -> None:
     assert {(252, 252, 250), (252, 252, 248), (213, 94, 0), (0, 114, 178)} <= as_set(palette)
 
 
+@pytest.mark.slow
 def test_the_others_lie_near_a_palette_colour() -> None:
     pixels = ramps()[:, 2::-1].astype(int)
     palette = make_palette([ramps()]).astype(int)
@@ -93,6 +94,7 @@ def test_colours_are_as_far_apart_as_they_look(
     assert _oklab(np.array([colour], np.uint8))[0] == pytest.approx(seen, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_indices_of_a_large_frame_take_little_memory_and_are_those_of_its_parts() -> None:
     pixels, random = 3840 * 2160, np.random.default_rng(1)
     frame = np.repeat(random.integers(0, 1 << 24, 3840, dtype=np.uint32), 2160)

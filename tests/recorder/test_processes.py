@@ -165,6 +165,7 @@ def test_a_recording_has_the_same_bytes_whatever_draws_it(
     assert made[0] == made[1] == made[2]
 
 
+@pytest.mark.slow
 def test_a_tape_has_the_same_frames_whatever_draws_them() -> None:
     """Its states follow from one another, so each process goes through all of them and draws its own."""
     actions = {

@@ -86,6 +86,7 @@ def test_more_dyads_than_can_be_tried_are_refused() -> None:
         closures(scene)
 
 
+@pytest.mark.slow
 def test_the_command_lists_writes_and_draws_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -91,6 +91,7 @@ def test_a_yoke_slides_along_its_line_and_can_be_edited() -> None:
 
 
 @given(st.permutations(sorted(JOINTS)))
+@pytest.mark.slow
 def test_each_joint_comes_after_those_it_is_found_from(names: list[str]) -> None:
     found = order(PINS + "".join(JOINTS[name] for name in names))
     assert set(found) == {"O2", "O4", *JOINTS}

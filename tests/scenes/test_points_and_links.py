@@ -517,6 +517,7 @@ IN_UNITS = (
 )
 
 
+@pytest.mark.slow
 def test_a_pose_is_the_same_linkage_in_another_unit() -> None:
     scene = scene_from(tomllib.loads(f'length_unit = "cm"\n{IN_UNITS}'), name="it", where="it")
     labels = {item.label for item in dimensions(scene)}

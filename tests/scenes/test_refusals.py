@@ -387,6 +387,7 @@ def _tables(values: dict[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
             yield from _tables(value, (*path, key))
 
 
+@pytest.mark.slow
 def test_a_stray_key_is_refused_in_every_table_of_every_kind() -> None:
     kinds = set()
     for file in sorted(CATALOGUE.rglob("*.toml")):
@@ -540,6 +541,7 @@ def test_a_list_of_names_to_choose_from_stays_short() -> None:
         scene_from(parse(text, "my.toml"), name="my", where="my.toml")
 
 
+@pytest.mark.slow
 def test_a_crank_that_turns_too_often_is_refused_and_one_that_turns_often_takes_little_memory() -> None:
     def geared(last: int) -> dict[str, Any]:
         train = {"A": {"crank": "O2", "length": 30}}

@@ -47,6 +47,7 @@ def turning_bodies(scene: Scene) -> list[str]:
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.sampled
+@pytest.mark.thinned(3)
 def test_what_is_said_to_turn_fully_does_and_nothing_else(name: str) -> None:
     scene = load(name)
     turning = [body for body in turning_bodies(scene) if turns_fully(scene, body)]

@@ -51,6 +51,7 @@ def change(page: Page, *factors: float) -> list[float]:
 @pytest.mark.slow
 @pytest.mark.parametrize("where", SIZES)
 @pytest.mark.parametrize("name", SCENES)
+@pytest.mark.thinned(5)
 def test_names_can_be_read_and_are_all_seen(name: str, where: str, page: Page, tmp_path: Path) -> None:
     page.sized(*SIZES[where])
     page.go(put(tmp_path, Shared(load(name), names=1)))

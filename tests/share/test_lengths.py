@@ -306,6 +306,7 @@ ENDS = """(() => {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*SCENES, "engine", "oscillating-cylinder", "landing-gear", "toggle-clamp"])
+@pytest.mark.thinned(4)
 def test_a_page_draws_changed_lengths_as_it_draws_its_own(name: str, page: Page, tmp_path: Path) -> None:
     page.sized(2400, 1500)  # so large that no name is enlarged
     page.go(put(tmp_path, Shared(load(name), names=1)))
@@ -326,6 +327,7 @@ def test_a_page_draws_changed_lengths_as_it_draws_its_own(name: str, page: Page,
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["crank-rocker", "slider-crank", "jansen", "press", "whitworth"])
 @pytest.mark.parametrize("share", [0.9, 1.04])
+@pytest.mark.thinned(3)
 def test_bars_end_at_their_joints_with_other_lengths(
     name: str, share: float, page: Page, tmp_path: Path
 ) -> None:

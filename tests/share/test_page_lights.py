@@ -101,6 +101,7 @@ def saying(key: str, where: str) -> str:
     ],
 )
 @pytest.mark.parametrize("by", ["mouse", "touch", "focus"])
+@pytest.mark.thinned(5)
 def test_it_is_lit_by_mouse_touch_and_focus(
     key: str, where: str, by: str, page: Page, tmp_path: Path
 ) -> None:

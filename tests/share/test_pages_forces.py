@@ -90,7 +90,13 @@ def told(data: Any, n: int, phase: float, *, back: bool, side: int = 0) -> tuple
 SCENES = ("press", "engine", "andrews", "knuckle-press", "loaded", "dead", "dead, same", "engine, static")
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(one, marks=[pytest.mark.slow] * (one not in ("loaded", "dead", "andrews")))
+        for one in SCENES
+    ],
+)
 def test_a_page_s_forces_are_what_is_solved(name: str) -> None:
     scene = scene_of(name)
     data = held(document(Shared(scene)))
@@ -113,6 +119,7 @@ def test_what_has_no_forces_has_no_arrows_of_them() -> None:
     assert {one["order"] for one in movers if one["kind"] == "arrows"} == {1, 2}
 
 
+@pytest.mark.slow
 def test_a_page_at_rest_is_asked_for_as_a_chart_at_rest_is(tmp_path: Path, capsys: Any) -> None:
     target = tmp_path / "page.html"
     assert main(["share", "engine", "--static", "-o", str(target)]) == 0

@@ -136,6 +136,7 @@ def test_a_picture_is_as_high_as_its_scene_within_bounds(name: str, high: int) -
     assert views == [f"0 0 960 {high}", None]
 
 
+@pytest.mark.slow
 def test_a_page_runs_at_the_speed_asked_for() -> None:
     found = held(document(Shared(load("press"), speed=-1.5)))
     assert found["speed"] == -1.5

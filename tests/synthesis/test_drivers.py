@@ -121,6 +121,7 @@ def test_a_body_passes_its_poses_in_half_a_turn_of_the_motor(kind: str, motor: A
     assert all(one.scene.info.full_turn for one in found if not one.defects)
 
 
+@pytest.mark.slow
 def test_an_output_follows_its_function_while_a_motor_turns() -> None:
     given: dict[str, Any] = {"input_range": math.radians(60), "output_range": math.radians(-60), "count": 2}
     plain = linkanim.function("1/x", 1, 2, **given)

@@ -62,6 +62,7 @@ def test_answers_differ_to_a_reader_and_those_that_rest_best_come_first(found: t
 
 
 # The swing in fifty digits: the greatest and the least angle of the rocker over the turn.
+@pytest.mark.slow
 def test_a_swing_is_met_to_its_digits() -> None:
     one = linkanim.dwell(rest=math.radians(60), swing=math.radians(35), count=1)[0]
     p = {name: mpmath.mpf(value) for name, value in one.parameters.items()}
@@ -112,6 +113,7 @@ def test_what_makes_no_sense_is_refused(asked: dict[str, float], says: str) -> N
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
+@pytest.mark.slow
 def test_a_stroke_of_another_size_has_the_same_linkage(scale: float) -> None:
     usual, other = (linkanim.dwell(rest=REST, stroke=stroke, count=1)[0] for stroke in (50.0, 50.0 * scale))
     assert other.parameters["crank"] == pytest.approx(usual.parameters["crank"] * scale, rel=1e-9)

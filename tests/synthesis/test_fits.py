@@ -279,6 +279,7 @@ def test_an_answer_that_is_a_cognate_of_another_is_listed_once() -> None:
     assert min(one.apart(other) for one, other in combinations(listed, 2)) > 1e-3
 
 
+@pytest.mark.slow
 def test_of_two_answers_that_trace_one_curve_the_later_is_the_cognate_of_the_earlier() -> None:
     assert [one.cognate for one in linkanim.path(NINE, count=5, prefer="exact")] == [False, True]
 
@@ -482,6 +483,7 @@ def test_limits_are_kept(names: tuple[str, ...]) -> None:
         verify(fit, np.array(SQUARE) @ np.array([1.0, 1j]))
 
 
+@pytest.mark.slow
 def test_of_two_boxes_the_first_holds_the_crank_s_pin() -> None:
     boxes = [(12, -2, 10, 10), (-20, -30, 25, 20)]
     for some in (boxes, boxes[::-1]):

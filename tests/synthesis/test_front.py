@@ -137,6 +137,7 @@ def test_the_list_is_the_front_the_one_to_build_first_and_no_two_alike(name: str
 
 
 # Its transmission angle is 3.6 degrees: nobody would build it, but who asks for it gets it.
+@pytest.mark.slow
 def test_the_linkage_behind_a_curve_comes_first_however_it_runs() -> None:
     row = np.array([0, 0, 30, 90, 45, 30, 64.3, 0, 56.0])
     turn = np.linspace(0, 2 * math.pi, 64, endpoint=False)
@@ -161,6 +162,7 @@ def test_a_chosen_answer_never_doubles_the_size_for_less_than_a_third_of_the_dev
 @pytest.mark.parametrize("scale", [2.0**-10, 2.0**10], ids=["tiny", "huge"])
 @pytest.mark.parametrize("prefer", ["compact", "angle"])
 @pytest.mark.slow
+@pytest.mark.thinned(3)
 def test_a_curve_of_another_size_has_the_same_front(prefer: Preference, scale: float) -> None:
     points = np.array([(-62, -41), (-42, -67), (19, -10), (95, 49), (31, 58), (-41, 11)], dtype=float)
     usual, other = (path(size * points, prefer=prefer, count=2) for size in (1.0, scale))

@@ -49,6 +49,7 @@ def test_the_image_of_an_answer_stays_its_image(kind: str, line: str, driver: bo
         assert all(one.scene.info.full_turn or one.defects or not driver for one in found)
 
 
+@pytest.mark.slow
 def test_a_finger_s_path_has_its_image() -> None:
     for fit in linkanim.path(ARC, False, mirror="x=130", count=2, prefer="exact"):
         check(fit.scene, "x=130")

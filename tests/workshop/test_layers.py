@@ -47,6 +47,7 @@ def tried(choices: list[Choice]) -> int | None:
 
 @settings(max_examples=40)
 @given(clashes=st.lists(st.tuples(SETS, SETS), max_size=8))
+@pytest.mark.slow
 def test_random_clashes_are_ordered_in_as_few_layers_as_can_be(
     clashes: list[tuple[set[int], set[int]]],
 ) -> None:
@@ -106,10 +107,16 @@ def sliders(count: int) -> Scene:
 @pytest.mark.parametrize(
     ("scene", "layered", "said"),
     [
-        pytest.param(sliders(23), 24, "", id="23 sliders"),
+        pytest.param(sliders(23), 24, "", id="23 sliders", marks=pytest.mark.slow),
         pytest.param(rockers(9), 10, "", id="9 rockers"),
         pytest.param(rockers(10), 0, "narrower bars can, such as --bar 1.4", id="10 rockers"),
-        pytest.param(rockers(12), 0, "a bridge over it can carry G0 from above", id="12 rockers"),
+        pytest.param(
+            rockers(12),
+            0,
+            "a bridge over it can carry G0 from above",
+            id="12 rockers",
+            marks=pytest.mark.slow,
+        ),
         pytest.param(
             rockers(45),
             0,
@@ -122,7 +129,7 @@ def sliders(count: int) -> Scene:
             0,
             "whichever of the two lies higher; narrower bars can",
             id="31 sliders",
-            marks=pytest.mark.slow,
+            marks=pytest.mark.long,
         ),
     ],
 )

@@ -22,7 +22,7 @@ from linkanim.workshop.request import make
 from linkanim.workshop.sheet import Sheet
 
 
-@pytest.mark.thinned(3)
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("name", ["press", "crank-shaper", "drag-link", "cardan-gears"])
 def test_every_part_is_listed_and_put_on_once_in_the_order_of_layers(name: str) -> None:
     made = make(load(name), fit="A4", bridge=True)
@@ -144,6 +144,7 @@ def test_layers_that_are_lifted_take_all_the_height_there_is() -> None:
         assert 10 < lines.min() < lines.max() < 410
 
 
+@pytest.mark.slow
 def test_the_page_is_well_formed_but_for_its_head() -> None:
     text = Sheet(make(load("press"), fit="Letter")).document()
     body = text[text.index("<body>") : text.index("</body>") + 7]
