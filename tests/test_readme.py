@@ -158,7 +158,7 @@ def test_the_tutorial_s_scene_is_the_example() -> None:
 def test_every_snippet_runs(snippet: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     exec(compile(snippet.replace("(1280, 720)", "(160, 90)"), "README.md", "exec"), {})
-    assert [path.name for path in tmp_path.iterdir()] == re.findall(r'record\(scene, "(.+?)"', snippet)
+    assert [path.name for path in tmp_path.iterdir()] == re.findall(r'record\(.+?, "(.+?)"', snippet)
 
 
 def test_every_file_named_is_there() -> None:
