@@ -47,7 +47,6 @@ SHOWN: dict[str, tuple[str, tuple[Action, ...]]] = {
     "the help": ("press", (Action("help"),)),
     "the help of a list": ("press", (Action("edit"), Action("help"))),
     "the shelf": ("press", (Action("shelf"),)),
-    "closures": ("klann", (Action("closures"),)),
     "a recording": ("press", (Action("taking"),)),
     "a construction": ("crank-rocker", (Action("pause"), Action("construct", 1), Action("construct", 3))),
     "a sheet": ("press", (Action("sheet"),)),
