@@ -403,7 +403,7 @@ def _own_slot(name: str, line: Line, context: DrawContext) -> Bar | None:
     assert line.on is not None
     linkage, places = context.figure.linkage, context.figure.cycle.position
     carrier = next((body.joints for body in linkage.bodies if {*line.on} <= {*body.joints}), ())
-    n = holding(linkage.rigid_bodies, carrier)
+    n = holding(linkage.rigid_bodies, carrier) if carrier else None
     if n is None or abs(sin(line.angle)) > _ALONG or line.through != line.on[0]:
         return None
     shape = linkage.rigid_bodies[n]
