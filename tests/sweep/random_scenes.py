@@ -195,7 +195,9 @@ def bars_of(document: Document) -> list[tuple[str, str]]:
 
 
 def _joined(rng: Random, document: Document) -> None:
-    """Add a joint of a kind that typed linkages lack."""
+    """Add a joint of a kind that typed linkages lack; a form of points and links has its own."""
+    if "points" in document:
+        return
     known, moving, bars = _known(document), _moving(document), bars_of(document)
     name, length = rng.choice(NAMES), rng.choice((1, 10, 40, 200, 1e7, 1e-6))
     line: Document = {"through": rng.choice(known), "angle": rng.choice(CIRCLE), "offset": rng.choice((0, 3))}
