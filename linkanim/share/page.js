@@ -11,7 +11,7 @@
   page.period = TURN * Math.round(page.period / TURN);  // with all its digits
 
   // a sentence in the page's language, with its parts in their places
-  const said = (text, parts = {}) => (page.said[text] ?? text).replace(/\{(\w+)\}/g, (_, name) => parts[name]);
+  const said = (text, parts = {}) => (Object.hasOwn(page.said, text) ? page.said[text] : text).replace(/\{(\w+)\}/g, (_, name) => parts[name]);
   const minus = (text) => text.replaceAll("-", "−");
   const short = (x) => minus(String(Number(x.toPrecision(4))));
 
@@ -868,7 +868,7 @@
     };
     cells = [];
     put("points", [said("point"), `${said("position")} (${of})`, `${said("velocity")} (${of}/s)`, `${said("acceleration")} (${of}/s²)`], [...tracksNow().keys()].map((name) => ({
-      name: escaped(page.called[name] ?? name), keys: [`j ${name}`, `j ${name}`, `v ${name}`, `a ${name}`],
+      name: escaped(Object.hasOwn(page.called, name) ? page.called[name] : name), keys: [`j ${name}`, `j ${name}`, `v ${name}`, `a ${name}`],
       tells: [(pose) => couple(inUnits(pose(name), view).place), (pose) => rates(inUnits(pose(name), view).velocity), (pose) => rates(inUnits(pose(name), view).acceleration)],
     })));
     const links = new Map(movers.filter(({ link, tail, head }) => link && tail !== head).map((mover) => [mover.link, mover]));
