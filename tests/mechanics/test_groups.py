@@ -348,14 +348,18 @@ def held(form: str, seed: int) -> None:
         shown = found.position, found.velocity, found.acceleration
         for order, (own, solved) in enumerate(zip(true, shown, strict=True)):
             off = max(float(abs(own[name] - mp.mpc(*map(float, solved[name][n])))) for name in bars.free)
-            bound = (1e-14, 1e-14, 1e-12)[order] * scales[order]
-            if order < 2:  # half a last digit of the phase is worth more where a fast linkage turns back
-                bound = max(bound, np.spacing(phase) / 2 * scales[order + 1])
-            assert off <= bound, (form, seed, phase, order)
+            assert off <= (1e-14, 1e-14, 1e-12)[order] * scales[order], (form, seed, phase, order)
 
 
 BESIDE_LIMITS = {"of 0.2 degrees' range": 1393, "with two closures near each other": 27}
 """Butterflies whose solutions beside a limit are lost to rounding where a correction is trusted too far."""
+
+
+@pytest.mark.slow
+def test_a_fast_linkage_loses_nothing_of_its_phase() -> None:
+    # its velocity changes by 87 times itself in a radian: half a last digit of a piece's middle would show
+    with mp.workdps(50):
+        held("triad", 1162)
 
 
 @pytest.mark.slow

@@ -415,7 +415,7 @@ class _Fit:
         places, inverse = _inverse_powers()
         half = self.period * PI_WHOLE
         phases = [
-            half * (2 * part + 1) // (1 << depth) - half + (half * place // (1 << depth) >> BITS)
+            int(Fraction(_middle(self.period, depth, part)) * ONE) + (half * place // (1 << depth) >> BITS)
             for depth, part in parts
             for place in places
         ]
@@ -556,6 +556,11 @@ def _is_close(piece: MotionPiece) -> bool:
     return bool(last.max() < 1 << BITS - _LAST_BIT - 2 * max(piece.depth - _LONG, 0))
 
 
+def _middle(period: int, depth: int, part: int) -> float:
+    """Return the phase about which a piece is fitted: a float, so that none is lost where it is read."""
+    return float(Fraction(period * PI_WHOLE * (2 * part + 1 - (1 << depth)), ONE << depth))
+
+
 def _mirrored(piece: MotionPiece) -> MotionPiece:
     """Return the piece of the same places at the opposite phases."""
     signs = np.array([1 - 2 * (k % 2) for k in range(COUNT)], np.object_)
@@ -582,10 +587,7 @@ def _course(
     bins = [n for n, piece in enumerate(pieces) for _ in range(1 << depth - piece.depth)]
     half = period * math.pi
     halves = [half / (1 << piece.depth) for piece in pieces]
-    centres = [
-        float(Fraction(period * PI_WHOLE * (2 * piece.part + 1 - (1 << piece.depth)), ONE << piece.depth))
-        for piece in pieces
-    ]
+    centres = [_middle(period, piece.depth, piece.part) for piece in pieces]
     values = np.array([in_floats(piece.coefficients) for piece in pieces]) / shrunk
     # a point that does not move across its guide has what its solution's last digits leave there
     values[np.abs(values) * shrunk < SOLVED_TO_ALL_DIGITS] = 0.0
