@@ -1,18 +1,17 @@
-"""Frozen values that are quick to make: a frozen data class, and a named tuple.
+"""Frozen values that are quick to state: a frozen data class, and a named tuple.
 
-`dataclass(frozen=True)` writes and compiles six methods for each class while its module is imported, and
-`typing.NamedTuple` compiles one and looks at every annotation. That is a third and a tenth of a millisecond
-a class, and the window imports some three hundred of them before its first frame. Here the methods are
-shared by all classes, and whatever a class needs of its own is worked out when it is first asked for: many
-classes of an import never have a value. The rest is Python's own: `field`, `fields`, `replace`, `astuple`.
+`dataclass(frozen=True)` writes and compiles six methods for each class while its module is imported: a
+millisecond a class. Here all classes share their methods, and the fields are Python's own: `field`, `fields`,
+`replace`, `astuple` are those of `dataclasses`.
 """
 
 from __future__ import annotations
 
 import collections
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING, FrozenInstanceError, dataclass, field, fields
 from functools import cache
+from inspect import Parameter, Signature
 from operator import attrgetter, itemgetter
 from reprlib import recursive_repr
 from types import CodeType, FunctionType
@@ -43,151 +42,61 @@ def frozen(
             for name in vars(kind).get("__annotations__", ()):
                 if isinstance(getattr(cls, name, None), property):
                     raise TypeError(f"{cls.__name__}.{name}: a base has a property of this name")
-        cls.__frozen_statement__ = _Statement(cls, kw_only=kw_only)  # type: ignore[attr-defined]
-        methods: dict[str, object] = {
-            "__init__": _Late(cls, "__init__", _written_init),
-            "__repr__": _repr,
-            "__setattr__": _refuse_to_set,
-            "__delattr__": _refuse_to_delete,
-            "__match_args__": _Late(cls, "__match_args__", _placed),
-        }
-        if eq:
-            compared = _Late(cls, "__frozen_compared__", lambda cls: property(_reader(cls)))
-            methods |= {"__frozen_compared__": compared, "__eq__": _equal, "__hash__": _hash}
+        dataclass(init=False, repr=False, eq=False, kw_only=kw_only)(cls)
+        methods = {**_METHODS, **_EQUALITY} if eq else _METHODS
         for name in methods.keys() - own:
             setattr(cls, name, methods[name])
-        setattr(cls, _FIELDS, _Late(cls, _FIELDS, _standard_fields))
         return cls
 
     return made if cls is None else made(cls)
 
 
-_FIELDS = "__dataclass_fields__"
-"""Where Python looks for the fields of a data class."""
+@cache
+def _form(cls: Any) -> tuple[Any, ...]:
+    """Return the fields given in order, the names of all, usual values, what makes others, what follows."""
+    stated = fields(cls)
+    usual = {one.name: one.default for one in stated if one.default is not MISSING}
+    makers = {one.name: one.default_factory for one in stated if one.default_factory is not MISSING}
+    names = frozenset(one.name for one in stated)
+    return cls.__match_args__, names, usual, makers, getattr(cls, "__post_init__", None)
 
 
-class _Late:
-    """A stand-in for an attribute of a class, which makes the attribute when it is first asked for."""
-
-    def __init__(self, owner: type, name: str, make: Callable[[Any], object]) -> None:
-        self._owner, self._name, self._make = owner, name, make
-
-    def __get__(self, value: object, kind: type | None = None) -> Any:
-        if vars(self._owner).get(self._name) is self:
-            setattr(self._owner, self._name, self._make(self._owner))
-        return getattr(self._owner if value is None else value, self._name)
-
-
-class _Statement:
-    """The fields that a class itself states, without those of its bases."""
-
-    def __init__(self, cls: type, *, kw_only: bool) -> None:
-        self.kw_only = kw_only
-        self._types = {
-            name: kind
-            for name, kind in vars(cls).get("__annotations__", {}).items()
-            if not str(kind).startswith(("ClassVar", "typing.ClassVar"))
-        }
-        self.special = {name: one for name, one in vars(cls).items() if isinstance(one, Field)}
-        for name, one in self.special.items():
-            if one.default is MISSING:
-                delattr(cls, name)
-            else:
-                setattr(cls, name, one.default)
-        self._defaults = {name: getattr(cls, name, MISSING) for name in self._types}
-
-    def fields(self) -> Iterator[_Field]:
-        """Iterate the fields in their order."""
-        for name, kind in self._types.items():
-            factory: object = MISSING
-            compare, kw_only = True, self.kw_only
-            if (special := self.special.get(name)) is not None:
-                factory, compare = special.default_factory, special.compare
-                kw_only = kw_only if special.kw_only is MISSING else special.kw_only
-            yield _Field(name, kind, self._defaults[name], factory, compare, kw_only)
+def _filled(self: Any, /, *given: object, **named: object) -> None:
+    placed, names, usual, makers, follows = _form(self.__class__)
+    values = {**usual, **dict(zip(placed, given, strict=False)), **named}
+    if len(values) < len(names):
+        values |= {name: make() for name, make in makers.items() if name not in values}
+    if len(values) != len(names) or len(given) > len(placed) or not names.issuperset(named):
+        self.__signature__.bind(*given, **named)  # says what is wrong
+    self.__dict__.update(values)
+    if follows:
+        follows(self)
 
 
-def _fields(cls: type) -> list[_Field]:
-    """Return the fields of a class, those of its bases first."""
-    found: dict[str, _Field] = {}
-    for kind in reversed(cls.__mro__):
-        if "__frozen_statement__" in vars(kind):
-            found.update((one.name, one) for one in vars(kind)["__frozen_statement__"].fields())
-    return list(found.values())
+class _Signature:
+    """How the values of a class are made, as `inspect` tells it."""
 
-
-def _standard_fields(cls: Any) -> object:
-    """Return the fields as Python's own functions look for them, such as `replace`."""
-    for name, one in cls.__frozen_statement__.special.items():
-        setattr(cls, name, one)
-    dataclass(init=False, repr=False, eq=False, kw_only=cls.__frozen_statement__.kw_only)(cls)
-    return vars(cls)[_FIELDS]
-
-
-def _placed(cls: type) -> tuple[str, ...]:
-    return tuple(one.name for one in _fields(cls) if not one.kw_only)
-
-
-def _written_init(cls: type) -> Callable[..., None]:
-    """Return the `__init__` of a class, as `dataclass(frozen=True)` writes it."""
-    stated = sorted(_fields(cls), key=lambda one: one.kw_only)
-    made_by = {f"_make{n}": one.factory for n, one in enumerate(stated) if one.factory is not MISSING}
-    placed = [f"_{n}" for n, one in enumerate(stated) if not one.kw_only]
-    named = [f"_{n}" for n in range(len(placed), len(stated))]
-    lines = (
-        f"_set(self, '_{n}', "
-        + (f"_make{n}() if _{n} is _missing else _{n})" if f"_make{n}" in made_by else f"_{n})")
-        for n in range(len(stated))
-    )
-    last = "self.__post_init__()" if hasattr(cls, "__post_init__") else ""
-    arguments = ", ".join(["self", *placed, *(["*", *named] if named else [])])
-    body = "\n ".join([*lines, last or "pass"])
-    init = _function(
-        f"def __init__({arguments}):\n {body}",
-        {f"_{n}": one.name for n, one in enumerate(stated)},
-        {"_set": object.__setattr__, "_missing": MISSING, **made_by},
-    )
-    defaults = {
-        one.name: MISSING if one.factory is not MISSING else one.default
-        for one in stated
-        if one.default is not MISSING or one.factory is not MISSING
-    }
-    init.__defaults__ = tuple(
-        defaults[one.name] for one in stated if not one.kw_only and one.name in defaults
-    )
-    init.__kwdefaults__ = {
-        one.name: defaults[one.name] for one in stated if one.kw_only and one.name in defaults
-    }
-    init.__qualname__, init.__module__ = f"{cls.__qualname__}.__init__", cls.__module__
-    init.__annotations__ = {**{one.name: one.type for one in stated}, "return": None}
-    return init
-
-
-def _function(text: str, names: Mapping[str, str], known: dict[str, Any]) -> FunctionType:
-    """Return the function that a text defines, its arguments, and texts in it equal to them, renamed.
-
-    Functions of one form are compiled once: renaming takes a twentieth of the time.
-    """
-    code = _code(text)
-
-    def renamed(words: tuple[Any, ...]) -> tuple[Any, ...]:
-        return tuple(names.get(word, word) if isinstance(word, str) else word for word in words)
-
-    code = code.replace(co_varnames=renamed(code.co_varnames), co_consts=renamed(code.co_consts))
-    return FunctionType(code, known)
+    def __get__(self, value: object, kind: Any) -> Signature:
+        return Signature(
+            [
+                Parameter(
+                    one.name,
+                    Parameter.POSITIONAL_OR_KEYWORD
+                    if one.name in kind.__match_args__
+                    else Parameter.KEYWORD_ONLY,
+                    default=Parameter.empty if one.default is one.default_factory is MISSING else one.default,
+                    annotation=one.type,
+                )
+                for one in sorted(fields(kind), key=lambda one: one.kw_only is True)
+            ],
+            return_annotation=None,
+        )
 
 
 @cache
-def _code(text: str) -> CodeType:
-    found: dict[str, Any] = {}
-    exec(text, found)
-    (code,) = (one.__code__ for one in found.values() if isinstance(one, FunctionType))
-    return code
-
-
-def _reader(cls: type) -> Callable[[Any], tuple[object, ...]]:
+def _compared(cls: Any) -> Callable[[Any], tuple[object, ...]]:
     """Return a function that gives the compared fields of a value as a tuple."""
-    names = tuple(one.name for one in _fields(cls) if one.compare)
+    names = [one.name for one in fields(cls) if one.compare]
     if len(names) > 1:
         return attrgetter(*names)  # for one name it returns no tuple
     return lambda value: tuple(getattr(value, name) for name in names)
@@ -196,12 +105,12 @@ def _reader(cls: type) -> Callable[[Any], tuple[object, ...]]:
 def _equal(self: Any, other: Any) -> bool:
     if other.__class__ is not self.__class__:
         return NotImplemented  # type: ignore[no-any-return]
-    equal: bool = self.__frozen_compared__ == other.__frozen_compared__
-    return equal
+    read = _compared(self.__class__)
+    return read(self) == read(other)
 
 
 def _hash(self: Any) -> int:
-    return hash(self.__frozen_compared__)
+    return hash(_compared(self.__class__)(self))
 
 
 @recursive_repr()
@@ -217,6 +126,15 @@ def _refuse_to_set(self: object, name: str, value: object) -> NoReturn:
 def _refuse_to_delete(self: object, name: str) -> NoReturn:
     raise FrozenInstanceError(f"cannot delete field {name!r}")
 
+
+_METHODS: Mapping[str, Any] = {
+    "__init__": _filled,
+    "__signature__": _Signature(),
+    "__repr__": _repr,
+    "__setattr__": _refuse_to_set,
+    "__delattr__": _refuse_to_delete,
+}
+_EQUALITY: Mapping[str, Any] = {"__eq__": _equal, "__hash__": _hash}
 
 if TYPE_CHECKING:
     from typing import NamedTuple as NamedTuple
@@ -242,6 +160,28 @@ else:
 
     class NamedTuple(metaclass=_NamedTupleType):
         """A tuple whose places have the names of the annotated attributes, as of `typing.NamedTuple`."""
+
+
+def _function(text: str, names: Mapping[str, str], known: dict[str, Any]) -> FunctionType:
+    """Return the function that a text defines, its arguments, and texts in it equal to them, renamed.
+
+    Functions of one form are compiled once: renaming takes a twentieth of the time.
+    """
+    code = _code(text)
+
+    def renamed(words: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(names.get(word, word) if isinstance(word, str) else word for word in words)
+
+    code = code.replace(co_varnames=renamed(code.co_varnames), co_consts=renamed(code.co_consts))
+    return FunctionType(code, known)
+
+
+@cache
+def _code(text: str) -> CodeType:
+    found: dict[str, Any] = {}
+    exec(text, found)
+    (code,) = (one.__code__ for one in found.values() if isinstance(one, FunctionType))
+    return code
 
 
 class _LateMaker:
