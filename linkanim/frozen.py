@@ -1,4 +1,4 @@
-"""Frozen values that are quick to state: a frozen data class, and a named tuple.
+"""Frozen data classes that are quick to state.
 
 `dataclass(frozen=True)` writes and compiles six methods for each class while its module is imported: a
 millisecond a class. Here all classes share their methods, and the fields are Python's own: `field`, `fields`,
@@ -7,15 +7,13 @@ millisecond a class. Here all classes share their methods, and the fields are Py
 
 from __future__ import annotations
 
-import collections
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, FrozenInstanceError, dataclass, field, fields
 from functools import cache
 from inspect import Parameter, Signature
-from operator import attrgetter, itemgetter
+from operator import attrgetter
 from reprlib import recursive_repr
-from types import CodeType, FunctionType
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
+from typing import Any, NoReturn, TypeVar, dataclass_transform, overload
 
 Made = TypeVar("Made")
 
@@ -135,119 +133,3 @@ _METHODS: Mapping[str, Any] = {
     "__delattr__": _refuse_to_delete,
 }
 _EQUALITY: Mapping[str, Any] = {"__eq__": _equal, "__hash__": _hash}
-
-if TYPE_CHECKING:
-    from typing import NamedTuple as NamedTuple
-else:
-
-    class _NamedTupleType(type):
-        """Make a class that states its fields a tuple with names."""
-
-        def __new__(mcs, name: str, bases: tuple[type, ...], stated: dict[str, Any]) -> type:
-            if not bases:
-                return super().__new__(mcs, name, bases, stated)
-            names = tuple(stated.get("__annotations__", ()))
-            given = {
-                "__slots__": (),
-                "__new__": _LateMaker(),
-                "__match_args__": names,
-                "_fields": names,
-                "_field_defaults": {one: stated[one] for one in names if one in stated},
-            }
-            for place, one in enumerate(names):
-                given[one] = _field_at(place, one)
-            return type(name, (tuple,), {**_OF_TUPLES, **stated, **given})
-
-    class NamedTuple(metaclass=_NamedTupleType):
-        """A tuple whose places have the names of the annotated attributes, as of `typing.NamedTuple`."""
-
-
-def _function(text: str, names: Mapping[str, str], known: dict[str, Any]) -> FunctionType:
-    """Return the function that a text defines, its arguments, and texts in it equal to them, renamed.
-
-    Functions of one form are compiled once: renaming takes a twentieth of the time.
-    """
-    code = _code(text)
-
-    def renamed(words: tuple[Any, ...]) -> tuple[Any, ...]:
-        return tuple(names.get(word, word) if isinstance(word, str) else word for word in words)
-
-    code = code.replace(co_varnames=renamed(code.co_varnames), co_consts=renamed(code.co_consts))
-    return FunctionType(code, known)
-
-
-@cache
-def _code(text: str) -> CodeType:
-    found: dict[str, Any] = {}
-    exec(text, found)
-    (code,) = (one.__code__ for one in found.values() if isinstance(one, FunctionType))
-    return code
-
-
-class _LateMaker:
-    """A stand-in for the `__new__` of a named tuple, which makes that when it is first asked for."""
-
-    def __set_name__(self, owner: Any, name: str) -> None:
-        self._owner = owner
-
-    def __get__(self, value: object, kind: type | None = None) -> Callable[..., Any]:
-        owner = self._owner
-        if vars(owner)["__new__"] is self:
-            names = {f"_{n}": one for n, one in enumerate(owner._fields)}
-            listed = "".join(f"{one}, " for one in names)
-            text = f"def __new__(_cls, {listed}): return _new(_cls, ({listed}))"
-            made = _function(text, names, {"_new": tuple.__new__})
-            made.__defaults__ = tuple(owner._field_defaults.values())
-            made.__module__, made.__qualname__ = owner.__module__, f"{owner.__qualname__}.__new__"
-            made.__annotations__ = {**owner.__annotations__}
-            owner.__new__ = staticmethod(made)
-        return owner.__new__  # type: ignore[no-any-return]
-
-
-def _tuple_of(cls: Any, values: Iterable[object]) -> Any:
-    made = tuple.__new__(cls, values)
-    if len(made) != len(cls._fields):
-        raise TypeError(f"Expected {len(cls._fields)} arguments, got {len(made)}")
-    return made
-
-
-def _bare(self: tuple[object, ...]) -> tuple[object, ...]:
-    return tuple(self)
-
-
-def _replaced(self: Any, /, **changes: object) -> Any:
-    made = self._make(map(changes.pop, self._fields, self))
-    if changes:
-        raise ValueError(f"Got unexpected field names: {list(changes)!r}")
-    return made
-
-
-def _shown(self: Any) -> str:
-    fields_shown = ", ".join(f"{name}={value!r}" for name, value in zip(self._fields, self, strict=True))
-    return f"{self.__class__.__name__}({fields_shown})"
-
-
-_OF_TUPLES: dict[str, object] = {
-    "__repr__": _shown,
-    "__getnewargs__": _bare,
-    "__replace__": _replaced,
-    "_make": classmethod(_tuple_of),
-    "_replace": _replaced,
-    "_asdict": lambda self: dict(zip(self._fields, self, strict=True)),
-}
-"""What all named tuples have in common, beside what a tuple has."""
-_field_at: Callable[[int, str], object] = getattr(
-    collections, "_tuplegetter", lambda place, _: property(itemgetter(place))
-)
-"""Makes a reader of one place of a tuple: the one of Python's own named tuples, where it can be imported."""
-
-
-class _Field(NamedTuple):
-    """A field of a frozen class: its name and type, its default or what makes one, and how it is used."""
-
-    name: str
-    type: object
-    default: object
-    factory: object
-    compare: bool
-    kw_only: bool

@@ -17,11 +17,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from errno import EMFILE, ENFILE, ENOMEM
 from pathlib import Path
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from linkanim.bounds import LONGEST_TEXT, MOST_DIGITS, MOST_ROWS_READ
 from linkanim.errors import BadInput, OtherVersion, WorkFailed, shortened
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.units import shown
 
 # Files from outside: read whole or refused, and weighed before a parser is let loose on them.

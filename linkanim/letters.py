@@ -7,9 +7,8 @@ in `explain.formula`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 from unicodedata import combining, normalize
-
-from linkanim.frozen import NamedTuple
 
 Has = Callable[[str], bool]
 """Whether a font has a character."""

@@ -14,10 +14,10 @@ from decimal import Decimal
 from fractions import Fraction
 from math import degrees as to_degrees
 from math import floor, isfinite, isinf, log10, pi
+from typing import NamedTuple
 
 from linkanim.bounds import MOST_DIGITS
 from linkanim.errors import UnitError
-from linkanim.frozen import NamedTuple
 
 # Numbers as people read them: how many digits, which minus, and what stands where there is no value.
 

@@ -9,11 +9,10 @@ from collections.abc import Callable
 from dataclasses import FrozenInstanceError, asdict, astuple, dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any, ClassVar
-from typing import NamedTuple as StandardTuple
 
 import pytest
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 
 
 class Base:
@@ -182,76 +181,3 @@ def test_a_class_may_have_helpers_of_any_name() -> None:
 def test_an_assignment_is_refused() -> None:
     with pytest.raises(FrozenInstanceError, match="cannot assign to field 'a'"):
         Kept(1).a = 2  # type: ignore[misc]
-
-
-class Pair(NamedTuple):
-    """A tuple with names, a default and a method."""
-
-    a: int
-    b: str = "b"
-
-    @property
-    def twice(self) -> int:
-        return 2 * self.a
-
-    def with_base(self) -> object:
-        return super().__hash__()
-
-
-class StandardPair(StandardTuple):
-    a: int
-    b: str = "b"
-
-    @property
-    def twice(self) -> int:
-        return 2 * self.a
-
-    def with_base(self) -> object:
-        return tuple.__hash__(self)
-
-
-class Nothing(NamedTuple):
-    pass
-
-
-class StandardNothing(StandardTuple):
-    pass
-
-
-TUPLE_CALLS = [
-    pytest.param(lambda pair, _: pair(1), id="made"),
-    pytest.param(lambda pair, _: repr(pair(b="x", a=(1,))).rpartition("Pair")[2], id="repr"),
-    pytest.param(lambda pair, _: pair(), id="a place is missing"),
-    pytest.param(lambda pair, _: pair(1, "b", 3), id="too many"),
-    pytest.param(lambda pair, _: pair(1, c=3), id="an unknown name"),
-    pytest.param(lambda pair, _: (pair(1).a, pair(1).b, pair(2).twice), id="read by name"),
-    pytest.param(lambda pair, _: pair(1) == (1, "b"), id="equal to a tuple"),
-    pytest.param(lambda pair, _: pair(1).with_base() == hash((1, "b")), id="hash, by super"),
-    pytest.param(lambda pair, _: pair(1)._replace(a=2), id="replace"),
-    pytest.param(lambda pair, _: pair(1)._replace(c=2), id="replace what is not there"),
-    pytest.param(lambda pair, _: pair._make([3, "c"]), id="from a list"),
-    pytest.param(lambda pair, _: pair._make([3]), id="from a list that is too short"),
-    pytest.param(lambda pair, _: pair(1)._asdict(), id="as a dict"),
-    pytest.param(lambda pair, _: (pair._fields, pair._field_defaults, pair.__match_args__), id="fields"),
-    pytest.param(lambda pair, _: [*map(str, inspect.signature(pair).parameters)], id="signature"),
-    pytest.param(lambda pair, _: copy.deepcopy(pair([1])), id="a deep copy"),
-    pytest.param(lambda pair, _: type(pair(1))(*pair(1)), id="made again"),
-    pytest.param(lambda pair, _: setattr(pair(1), "a", 2), id="set"),
-    pytest.param(lambda pair, _: setattr(pair(1), "other", 2), id="set what is no place"),
-    pytest.param(lambda pair, _: hasattr(pair(1), "__dict__"), id="no room for more"),
-    pytest.param(lambda _, nothing: (nothing(), repr(nothing())[-9:]), id="no place"),
-]
-
-
-@pytest.mark.parametrize("work", TUPLE_CALLS)
-def test_a_named_tuple_is_as_pythons_own(work: Callable[[Any, Any], object]) -> None:
-    def of_each(kinds: tuple[Any, ...]) -> object:
-        return told(lambda _: work(*kinds), {})
-
-    assert of_each((Pair, Nothing)) == of_each((StandardPair, StandardNothing))
-
-
-def test_a_named_tuple_goes_through_a_pickle() -> None:
-    value = pickle.loads(pickle.dumps(Pair(1)))
-    assert value == Pair(1)
-    assert type(value) is Pair

@@ -12,12 +12,12 @@ import cmath
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRP, RRR, Crank, Linkage, Pin, Rigid
 from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from

@@ -22,7 +22,7 @@ from datetime import date
 from importlib.resources import files
 from pathlib import Path
 from statistics import median
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -32,7 +32,7 @@ from linkanim.bench.questions import MECHANISMS, CaseSet
 from linkanim.bench.reference import Score, Solve, answer, score, together
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text, markdown
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 
 # Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 #

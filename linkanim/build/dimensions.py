@@ -6,13 +6,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import atan2, degrees, hypot, nan
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, body_name, renamed
 from linkanim.build.places import crank_of, fitted, lengths_within, place_of, round_number, with_number
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.scenes import file_form
 from linkanim.scenes.editing import Dimension, dimension_of, written
 from linkanim.scenes.form import LENGTH, LENGTHS, NAME, OFFSET, Context, Field, Form, Key, Table

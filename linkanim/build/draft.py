@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from itertools import chain, count
-from typing import Any
+from typing import Any, NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.words import to_say
 

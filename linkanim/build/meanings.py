@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 from linkanim.build.building import Building, grown, refused
 from linkanim.build.draft import JOINT, Draft, Thing
@@ -27,7 +28,6 @@ from linkanim.build.gestures import (
     under,
 )
 from linkanim.build.places import crank_of, from_span, place_of, snapped
-from linkanim.frozen import NamedTuple
 from linkanim.words import said
 
 _STUB = 0.5

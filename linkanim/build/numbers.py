@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import isnan
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim.build.building import Building, draft_of, grown, knowing
 from linkanim.build.dimensions import PropertyRow, rows_of
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, numbered
 from linkanim.build.scene_form import Made, made
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.scenes.editing import numbers
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene

@@ -14,11 +14,10 @@ from fractions import Fraction
 from functools import partial, reduce
 from itertools import combinations
 from math import atan2, cos, degrees, radians, sin, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim import units
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, named_in
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import RRP, RRR, Point, Rigid, RigidBody
 from linkanim.scenes.editing import replaced
 

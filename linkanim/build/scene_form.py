@@ -11,7 +11,7 @@ from cmath import phase
 from collections.abc import Iterator, Mapping
 from functools import partial
 from math import degrees, dist, isclose, nan, pi
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim import units
 from linkanim.build.draft import Draft, Photo, named_in
@@ -19,7 +19,6 @@ from linkanim.build.freedom import mobility, redundant_bar
 from linkanim.build.places import JointTables, ends_of, place_of, plates_of, solvable_joints
 from linkanim.build.pose_form import posed_tables
 from linkanim.errors import BadInput, UnitError
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint, Pin, Point, Rigid
 from linkanim.scenes.editing import phase_towards
 from linkanim.scenes.file_form import SHORTHANDS, Expansion, names_of

@@ -5,7 +5,7 @@ It loads nothing, so that the help of a command can read it.
 
 from __future__ import annotations
 
-from linkanim.frozen import NamedTuple
+from typing import NamedTuple
 
 
 class Tool(NamedTuple):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from argparse import Namespace
 from pathlib import Path
+from typing import NamedTuple
 
 from linkanim.atomic_files import refuse_input
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.measures import coupler_body
 from linkanim.picture.layout import SMALL, layout

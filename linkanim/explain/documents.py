@@ -16,6 +16,7 @@ from functools import cache, reduce
 from html import escape
 from itertools import chain, groupby, pairwise
 from pathlib import Path
+from typing import NamedTuple
 from unicodedata import east_asian_width
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
@@ -37,7 +38,7 @@ from linkanim.explain.steps import (
     rounded,
 )
 from linkanim.explain.tikz import free_tikz, tikz
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.words import html_language, said, said_many
 
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim.explain.formula import (
     NOWHERE,
@@ -43,7 +43,6 @@ from linkanim.explain.steps import (
     marked,
     rounded,
 )
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,

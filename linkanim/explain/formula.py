@@ -12,10 +12,10 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from html import escape
-from typing import Literal
+from typing import Literal, NamedTuple
 from unicodedata import normalize
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.letters import spelt_out
 
 # Formulas of a worked solution as trees, whose leaves hold the digits that are printed.

@@ -6,12 +6,12 @@ Places are complex numbers x + yi, y up, in the scene's unit; how large all is d
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.explain.forces import FreeBody
 from linkanim.explain.solution import Solution
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import holding
 from linkanim.mechanics.quantities import called
 from linkanim.words import said

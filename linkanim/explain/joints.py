@@ -12,7 +12,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Callable, Mapping
 from itertools import takewhile
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,7 +55,7 @@ from linkanim.explain.steps import (
     route_of_bar,
     slide_sides,
 )
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.groups import GroupPoint, GroupSlider
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
 from linkanim.units import rounded as in_digits

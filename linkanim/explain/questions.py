@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import degrees
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from linkanim.explain.formula import Formula, Symbol
 from linkanim.explain.solution import INPUT_TITLE, Solution
@@ -32,7 +32,7 @@ from linkanim.explain.steps import (
     names_of,
 )
 from linkanim.explain.whole_motion import is_searched
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RPP, RPR, Crank, Joint
 from linkanim.mechanics.quantities import link_labels, phrase
 from linkanim.picture.figure import figure

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from linkanim.explain.formula import (
     NOWHERE,
@@ -31,7 +31,7 @@ from linkanim.explain.formula import (
     number,
     square,
 )
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Crank, Damper, Joint, Linkage, Spring, holding
 from linkanim.mechanics.linkage import Line as Travel
 from linkanim.mechanics.motion import Pose

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -42,7 +42,6 @@ from linkanim.explain.steps import (
     marked,
     rounded,
 )
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.analysis import FourBar, four_bar_of
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint
 from linkanim.mechanics.measures import output_body, output_slider

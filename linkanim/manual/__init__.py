@@ -14,8 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from html import escape, unescape
 from pathlib import Path
-
-from linkanim.frozen import NamedTuple
+from typing import NamedTuple
 
 FOLDER = Path(__file__).parent
 CONTENTS = "README"

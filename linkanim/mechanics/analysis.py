@@ -15,11 +15,12 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cached_property, partial
 from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.balance import surplus
 from linkanim.mechanics.forces import Demand, demand, usual_effort

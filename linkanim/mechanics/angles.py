@@ -12,9 +12,9 @@ import math
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Constant, Expr, Value, rint, select
 from linkanim.mechanics.tolerances import STATED
 from linkanim.units import PI_REST, Angle

@@ -14,9 +14,7 @@ import operator
 from collections.abc import Callable, Iterable, Mapping
 from decimal import Context, Decimal
 from fractions import Fraction
-from typing import Any
-
-from linkanim.frozen import NamedTuple
+from typing import Any, NamedTuple
 
 # Constants of the formulas: floats that know which number they stand for.
 #

@@ -13,11 +13,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import tau
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.forces import input_effort
 from linkanim.mechanics.linkage import RRR, Body, Crank, Linkage, Pin, holding
 from linkanim.mechanics.motion import mechanism

@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.groups import GroupSlider
 from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding

@@ -14,12 +14,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring, holding
 from linkanim.mechanics.measures import (
     as_output,

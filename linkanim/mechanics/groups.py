@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Joint, Line, Linkage, Point, RigidBody, Slide, Stated
 from linkanim.mechanics.tolerances import ONE_POINT
 

@@ -14,11 +14,9 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from ctypes import CFUNCTYPE, c_char_p, c_ssize_t
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from numpy.typing import NDArray
-
-from linkanim.frozen import NamedTuple
 
 LANES = 8
 """The poses that are worked out at a time, and the fewest that can be."""

@@ -14,11 +14,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import field
 from functools import partial, reduce
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.errors import AssemblyError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import FULL_TURN, HALF_TURN, Sum, exact_angle
 from linkanim.mechanics.arithmetic import FormGraph, Slope, Value, are_inputs, known, maximum, minimum, sqrt
 from linkanim.mechanics.groups import group_of

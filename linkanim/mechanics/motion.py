@@ -15,13 +15,13 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.errors import AssemblyError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Body, CrankTriangle, Damper, Linkage, Spring
 from linkanim.mechanics.measures import (

@@ -13,9 +13,9 @@ Mechanisms). Vectors are x + yi: complex numbers for a `Pose`, arrays (N,) for a
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Linkage, Rigid, Slide
 from linkanim.mechanics.measures import as_complex, near, over

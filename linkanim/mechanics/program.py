@@ -17,12 +17,12 @@ from decimal import Decimal
 from functools import cached_property, lru_cache
 from struct import pack
 from types import CodeType, FunctionType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import WHOLE, Expr, LookUp, Value, digits_of
 from linkanim.mechanics.machine_code import (
     LANES,

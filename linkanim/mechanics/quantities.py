@@ -13,12 +13,12 @@ from dataclasses import replace
 from functools import partial
 from itertools import islice
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.centres import pole
 from linkanim.mechanics.forces import effort_token, input_effort
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Pin, Spring, holding

@@ -26,12 +26,11 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache, reduce
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.forces import idle, interpolated, near_ends
 from linkanim.mechanics.groups import GroupLink, GroupPoint, GroupSlide, GroupSlider, LinkGroup
 from linkanim.mechanics.linkage import (

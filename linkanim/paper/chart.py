@@ -9,11 +9,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.export import csv_head, csv_rows
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
 from linkanim.paper.illustration import DrawnPage
 from linkanim.paper.sentences import about, without_subscripts

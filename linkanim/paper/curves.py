@@ -11,6 +11,7 @@ from dataclasses import replace
 from itertools import chain
 from math import degrees, floor, tau
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ from numpy.typing import ArrayLike
 from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, NumberRow, NumberTable, named, read_numbers
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, plain_unit

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from io import BytesIO
+from typing import NamedTuple
 from xml.sax.saxutils import escape, quoteattr
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
-
-from linkanim.frozen import NamedTuple
 
 WIDTH = 12_192_000
 """A slide's width in EMU (914,400 to the inch): 13⅓ inches."""

@@ -10,11 +10,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from itertools import chain
 from math import degrees, isinf, isnan, nan, pi, remainder, tau
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.errors import OutOfRange
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import reversals
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage

@@ -10,10 +10,9 @@ import logging
 from collections.abc import Callable, Iterable, Sequence
 from datetime import UTC, datetime
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.letters import spelt_out
 from linkanim.paper.svg import flat, hexadecimal
 from linkanim.picture.items import Caption, Group, Halo, Item

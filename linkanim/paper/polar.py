@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import BadInput
 from linkanim.export import csv_head, csv_rows
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.quantities import Quantity, input_symbol
 from linkanim.paper.curves import Pace
 from linkanim.paper.illustration import DrawnPage

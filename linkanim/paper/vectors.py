@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.explain.formula import Symbol
 from linkanim.explain.solution import Solution
 from linkanim.explain.steps import names_of
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import holding
 from linkanim.mechanics.measures import output_slider
 from linkanim.mechanics.quantities import link_labels

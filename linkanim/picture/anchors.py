@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.motion_marks import SeenArrow
 from linkanim.picture.placing import Size
 from linkanim.picture.raster import Loop

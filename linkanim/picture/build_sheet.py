@@ -12,14 +12,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import ceil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pygame
 
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.bodies import mark_stamp, pin_stamp
 from linkanim.picture.figure import DrawSetting

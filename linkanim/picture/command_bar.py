@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import accumulate
+from typing import NamedTuple
 
 import pygame
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.items import Target

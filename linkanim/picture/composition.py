@@ -7,10 +7,11 @@ from dataclasses import replace
 from functools import cached_property, lru_cache
 from itertools import product
 from math import tau
+from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.anchors import Anchor, pushed
 from linkanim.picture.centres import CentrePairs
 from linkanim.picture.dead_centres import DeadCentres, dead_centres_of

@@ -5,12 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 from itertools import combinations
 from math import inf
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.centres import Centre, KennedyStep, joint_between, slide_between, touch
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.centres import CentrePairs, kennedy_line, label_of

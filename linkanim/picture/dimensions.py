@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from math import degrees
+from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Body, Brace, Rigid
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge

@@ -7,11 +7,11 @@ So an extent is a set of rectangles of the scene, each with margins in pixels.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.bodies import ENDED, WHEELS
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import outlines

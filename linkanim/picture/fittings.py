@@ -10,10 +10,11 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import frexp, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring, holding
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import DOWN, DrawContext, Figure

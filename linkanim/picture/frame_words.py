@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkanim.frozen import NamedTuple
+from typing import NamedTuple
+
 from linkanim.picture.items import Caption
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import floor
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 import pygame
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.board import Board
 from linkanim.picture.items import DrawnSheet, Target
 from linkanim.picture.raster import Colour, Layer, paint

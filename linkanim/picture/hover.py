@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import pygame
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import cut
 from linkanim.picture.text import Anchor, Type

@@ -11,8 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property
 from math import ceil
+from typing import NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.view import Rect
 
 _DRAWN_FOR = (1280, 720)

@@ -8,11 +8,12 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import pygame
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.board import STEP, Board, around
 from linkanim.picture.items import DrawnSheet, Target
 from linkanim.picture.raster import Colour, Layer, paint

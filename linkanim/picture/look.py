@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field, fields, replace
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.units import LENGTH_UNITS
 from linkanim.words import said
 

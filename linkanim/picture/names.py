@@ -12,11 +12,12 @@ from dataclasses import field, replace
 from functools import cached_property
 from itertools import combinations, pairwise
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.anchors import WAYS, Anchor, Anchors, Paths, Way, pushed, some_of

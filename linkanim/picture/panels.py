@@ -8,12 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from itertools import chain
 from math import ceil
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pygame
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.items import DrawnSheet, Target

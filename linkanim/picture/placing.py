@@ -9,11 +9,11 @@ Bars, plates and curves may be covered, but a place that covers less of them is 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import Loop
 from linkanim.picture.view import Rect
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.polygons import Order, Side, Sort
 from linkanim.picture.anchors import Way, pushed

@@ -5,7 +5,7 @@ Each states how wide a figure is there, how large its letters are, and whether i
 
 from __future__ import annotations
 
-from linkanim.frozen import NamedTuple
+from typing import NamedTuple
 
 USUAL_SIZE = (1280, 720)
 """The size in pixels of a figure for no stated purpose."""

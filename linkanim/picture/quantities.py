@@ -10,12 +10,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import ceil, degrees, floor, log10, pi, radians
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.errors import UnitError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, input_symbol, look_up
 from linkanim.picture.look import Over

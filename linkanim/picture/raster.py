@@ -11,13 +11,11 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
 from itertools import accumulate, pairwise
-from typing import overload
+from typing import NamedTuple, overload
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
-
-from linkanim.frozen import NamedTuple
 
 # Outlines to pixels by exact area coverage, so that a slow edge glides instead of shivering.
 #

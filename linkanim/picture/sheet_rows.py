@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkanim.frozen import NamedTuple
+from typing import NamedTuple
+
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group, Target

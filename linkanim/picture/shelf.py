@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from itertools import groupby
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pygame
 
 from linkanim.errors import LinkanimError
-from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.items import Target
 from linkanim.picture.layout import Docked, Layout, layout

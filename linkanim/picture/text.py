@@ -18,14 +18,13 @@ from itertools import groupby, pairwise, product
 from math import ceil, prod
 from operator import itemgetter
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 from unicodedata import normalize
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.letters import spelt_out
 from linkanim.picture.raster import Colour, offscreen, pixel_view
 from linkanim.picture.shapes import directions

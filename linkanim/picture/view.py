@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 
 
 class Rect(NamedTuple):

@@ -10,10 +10,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from importlib import import_module
 from shlex import quote, shlex
-from typing import Self, cast
+from typing import NamedTuple, Self, cast
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.picture.game_panel import Choice
 from linkanim.picture.look import Look
 from linkanim.player.action import Action

@@ -10,10 +10,10 @@ import cmath
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, pairwise
 from math import degrees, floor, hypot, inf, isfinite, pi, tan, tau
+from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.analysis import SHORTEST, FourBar, four_bar_of
 from linkanim.mechanics.linkage import Body, Slide
 from linkanim.mechanics.measures import as_output, coupler_body, growth, output_body

@@ -13,13 +13,13 @@ from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
 from random import Random
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput, LinkanimError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, control_in, refuse_controls
 from linkanim.picture.game_panel import Choice, GamePanel, ScoreBar
 from linkanim.picture.look import Look

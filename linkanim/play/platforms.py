@@ -14,9 +14,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from hashlib import sha256
 from html import escape
 from io import BytesIO
+from typing import NamedTuple
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import png_bytes
 from linkanim.play.question import QuizAnswer, QuizQuestion
 from linkanim.play.quiz import LETTERS, answer_text, curve_png, figure_words, question_figure

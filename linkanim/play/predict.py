@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import pi, radians, sin
 from random import Random
+from typing import NamedTuple
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.game_panel import Choice, GamePanel, Mood
 from linkanim.picture.look import Look
 from linkanim.picture.marks import Spot, Spots

@@ -10,12 +10,12 @@ from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from math import degrees, isfinite, pi
 from random import Random
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body, Point, holding
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.program import Array

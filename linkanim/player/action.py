@@ -5,7 +5,7 @@ Keys, mouse, tapes and `advance` share it. It loads nothing, so that the help of
 
 from __future__ import annotations
 
-from linkanim.frozen import NamedTuple
+from typing import NamedTuple
 
 # What can be asked of the player, as plain data: keys, mouse, tapes and `advance` share it.
 

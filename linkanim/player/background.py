@@ -14,12 +14,11 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO, TextIO, cast
+from typing import BinaryIO, NamedTuple, TextIO, cast
 
 from linkanim import child, intake
 from linkanim.atomic_files import checked_folder, checked_target, made_folder
 from linkanim.errors import BadInput, WorkFailed
-from linkanim.frozen import NamedTuple
 from linkanim.manifest import Output
 from linkanim.player import tape_file
 from linkanim.player.action import Action

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.marks import Spots
 from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, filtered

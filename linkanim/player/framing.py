@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import NamedTuple
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.view import Box

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal, Protocol
+from typing import Literal, NamedTuple, Protocol
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import OwnFile
 from linkanim.player.action import Action
 from linkanim.player.sight import Sight

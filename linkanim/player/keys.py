@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import field
 from functools import cache
+from typing import NamedTuple
 
 from linkanim.build.tools import TOOLS
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Value
 from linkanim.words import to_say

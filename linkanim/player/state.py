@@ -15,7 +15,7 @@ from dataclasses import field, replace
 from functools import cached_property
 from math import dist, fmod
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from linkanim.build.building import Building, Undoable
 from linkanim.build.draft import Draft, Thing
 from linkanim.build.meanings import Meaning
 from linkanim.errors import BadInput, LinkanimError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Point

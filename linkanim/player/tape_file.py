@@ -10,12 +10,11 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim import atomic_files, intake
 from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS, MOST_AT_ONCE
 from linkanim.errors import BadInput, LinkanimError
-from linkanim.frozen import NamedTuple
 from linkanim.intake import Intake, Section, refuse_controls
 from linkanim.manifest import Output
 from linkanim.player import stored

@@ -5,11 +5,10 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable, Sequence
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-
-from linkanim.frozen import NamedTuple
 
 Colour = tuple[int, int, int]
 Bytes = NDArray[np.uint8]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES, MOST_PIXELS
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.units import rpm, short
 
 Format = Literal["gif", "mp4", "png", "webm", "webp", "apng", "mov", "pdf"]

@@ -15,14 +15,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import field
 from functools import cache
 from itertools import count
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.bounds import can_be_computed
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.measures import output_body
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.files import load

@@ -22,11 +22,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from math import atan2, degrees, hypot
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, LinkanimError, SceneError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Body, Joint, Line, Pin, Point, Rigid, Slide
 from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS

@@ -16,11 +16,11 @@ import math
 from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, get_args
+from typing import Any, NamedTuple, get_args
 
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.intake import few, meant, unnameable
 from linkanim.mechanics.linkage import (
     MOTOR,

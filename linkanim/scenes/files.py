@@ -9,11 +9,10 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError, SceneError
-from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
 from linkanim.scenes.file_form import POINTS_FORM
 from linkanim.scenes.scene import Scene

@@ -19,10 +19,9 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.intake import Intake
 from linkanim.scenes.file_form import GROUND
 from linkanim.scenes.form import OF_DRIVE

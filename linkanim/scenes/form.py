@@ -15,12 +15,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import Any, ClassVar, Literal, Self, TypeVar
+from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar
 
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT, MOST_NAMES, MOST_PROBLEMS
 from linkanim.errors import BadInput, SceneError, UnitError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.intake import Section, few, meant
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Joint, RigidBody

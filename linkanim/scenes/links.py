@@ -16,9 +16,8 @@ from cmath import phase, rect
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
-from linkanim.frozen import NamedTuple
 from linkanim.intake import few, meant
 from linkanim.mechanics.groups import (
     GroupGear,

@@ -15,12 +15,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import hypot, pi
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim import units
 from linkanim.bounds import MOST_PROBLEMS
 from linkanim.errors import AssemblyError, BadInput, DyadAtLimit, EndsError
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.groups import GroupPoint
 from linkanim.mechanics.linkage import (

@@ -19,12 +19,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.manifest import FileSet, replacing
 from linkanim.mechanics.measures import as_complex, transmission_angle
 from linkanim.scenes.reading import scene_from

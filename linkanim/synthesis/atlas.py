@@ -11,12 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.linkages import Complex, Indices, LinkageKind, Real
 

@@ -9,12 +9,11 @@ import cmath
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Literal, cast
+from typing import Literal, NamedTuple, cast
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import RRP, RRR, Crank
 from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRatioPurpose

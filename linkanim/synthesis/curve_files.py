@@ -14,12 +14,12 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.intake import Intake, named, read_numbers
 from linkanim.synthesis.linkages import Complex, Real
 from linkanim.units import shown

@@ -13,13 +13,12 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import Any, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
 from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene

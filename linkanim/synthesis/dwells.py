@@ -12,14 +12,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkanim import units
 from linkanim.bounds import can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.search import highest
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene

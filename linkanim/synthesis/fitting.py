@@ -12,12 +12,12 @@ import math
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.synthesis.atlas import Candidates
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.linkages import Indices, LinkageKind, Real, Requirements, TracedPoints

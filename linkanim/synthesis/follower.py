@@ -14,10 +14,9 @@ from contextlib import suppress
 from itertools import chain
 from queue import SimpleQueue
 from threading import Thread
-from typing import TextIO
+from typing import NamedTuple, TextIO
 
 from linkanim.errors import LinkanimError
-from linkanim.frozen import NamedTuple
 from linkanim.synthesis import guidance
 from linkanim.synthesis.answers import NAME, Fit, answer_of
 from linkanim.synthesis.atlas import atlas

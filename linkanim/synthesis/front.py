@@ -15,11 +15,10 @@ import math
 from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import replace
 from itertools import pairwise
-from typing import Literal, TypeVar
+from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple
 from linkanim.synthesis.answers import Figures, Fit, answer_of, cognates_of, turning_cognates
 from linkanim.synthesis.atlas import CURVES, Candidates
 from linkanim.synthesis.fitting import EXACTLY, PathTask, merit, refined

@@ -14,14 +14,14 @@ import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkanim import units
 from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.intake import meant
 from linkanim.mechanics.search import sign_changes
 from linkanim.scenes.reading import scene_from

@@ -14,7 +14,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim import units
 from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.editing import phase_along
 from linkanim.scenes.reading import scene_from

@@ -12,14 +12,14 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.units import shown
 
 # The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.

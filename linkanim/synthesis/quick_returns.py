@@ -15,14 +15,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import field, replace
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkanim import units
 from linkanim.bounds import can_be_computed
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.search import highest
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene, TimeRatioPurpose

@@ -12,11 +12,11 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.synthesis.answers import Fit, checked, rounded
 from linkanim.synthesis.atlas import CURVES, Candidates, atlas, joined, matched, matched_few, matched_in_time
 from linkanim.synthesis.curves import DrawnCurve

@@ -6,11 +6,10 @@ The words and numbers are those of the shared page.
 from __future__ import annotations
 
 from math import hypot
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Damper, Point, Spring
 from linkanim.mechanics.motion import Pose, Strut
 from linkanim.picture.figure import Figure

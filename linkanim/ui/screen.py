@@ -12,14 +12,13 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pygame
 
 from linkanim.build.draft import UNTITLED
 from linkanim.errors import NoDisplay
-from linkanim.frozen import NamedTuple
 from linkanim.picture.build_sheet import pencil
 from linkanim.picture.command_bar import BarPrinter, share_at
 from linkanim.picture.command_icons import window_icon

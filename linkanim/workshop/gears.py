@@ -5,9 +5,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Crank, Linkage
 from linkanim.workshop.shapes import Outline, straight
 

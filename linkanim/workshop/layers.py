@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
+from typing import NamedTuple
 
-from linkanim.frozen import NamedTuple
 from linkanim.workshop.parts import Kit
 from linkanim.workshop.sweep import Cycle, MovingPiece, Nearness
 

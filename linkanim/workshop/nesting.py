@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
-from linkanim.frozen import NamedTuple
 from linkanim.workshop.shapes import Outline, box, polygon, upright
 
 MARGIN, FOOT = 10.0, 16.0

@@ -7,11 +7,11 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.frozen import NamedTuple
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 from linkanim.workshop.gears import NotFlat

@@ -9,12 +9,11 @@ speeds do not explain. Where that bound does not settle whether two pieces stay 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import NamedTuple
 from linkanim.picture.layered import Frame
 from linkanim.scenes.scene import Scene
 

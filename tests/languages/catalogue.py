@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 from babel.messages import Catalog
 from babel.messages.extract import extract_from_dir
@@ -22,7 +23,6 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
 import linkanim
-from linkanim.frozen import NamedTuple
 from linkanim.scenes.form import Field, Form, Named
 from linkanim.words import ENGLISH, FOLDER, LANGUAGES
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 from linkanim import intake
 from linkanim.cli.progress import along
 from linkanim.errors import BadInput
 from linkanim.export import json_text
-from linkanim.frozen import NamedTuple
 from linkanim.scenes import load
 from linkanim.scenes.reading import Problem, problems
 from linkanim.scenes.scene import Scene

@@ -17,10 +17,10 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import accumulate
 from operator import mul
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim.errors import AssemblyError, DyadAtLimit
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     Half,
     Sum,

@@ -19,13 +19,13 @@ from dataclasses import replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError, EndsError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import FULL_TURN, Sum, exact_angle, reduced, two_sum
 from linkanim.mechanics.arithmetic import LookUp, Moving, Slope, Value, arctan2, maximum, minimum, rint
 from linkanim.mechanics.groups import LinkGroup, group_of

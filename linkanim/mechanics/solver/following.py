@@ -22,13 +22,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from decimal import localcontext
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.groups import GROUND, GroupSlide, LinkGroup, direction_of, group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.precise import context, sides

@@ -15,9 +15,9 @@ from decimal import Decimal, localcontext
 from enum import Enum
 from fractions import Fraction
 from functools import reduce
-from typing import Any
+from typing import Any, NamedTuple
 
-from linkanim.frozen import NamedTuple, frozen
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
     HALF_TURN,
