@@ -277,8 +277,7 @@ def steady(motion: Any, joints: Iterable[str], read: Callable[[Any], tuple[Any, 
     linkage = motion.mechanism.linkage
     ways: list[Callable[[], Any]] = [partial(motion.per, mover) for mover in linkage.movers(joints)]
     if not motion.mechanism.full_turn or np.any(motion.input_acceleration) or not np.all(motion.input_speed):
-        if linkage.drive.coordinate.is_angle:
-            ways.append(lambda: motion.per_input)
+        ways.append(lambda: motion.per_input)
         ways.append(lambda: motion.mechanism.solve(phase=motion.phase, speed=1.0))
     share, values = _moved(motion, read)
     for way in ways:
