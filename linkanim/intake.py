@@ -370,18 +370,33 @@ _LONGEST_LINE = 100_000
 _WITH_COMMA = re.compile(r"[+-]?\d+(,\d+)?([eE][+-]?\d+)?")
 
 
-class NumberRow(NamedTuple):
-    """The numbers of a line, and which line it is."""
-
-    line: int
-    numbers: tuple[float, ...]
-
-
 class NumberTable(NamedTuple):
-    """The cells of a table's heading, none where it has no such line, and its rows."""
+    """A table of numbers: where it is from, the cells of its heading, none without such a line, its rows.
 
+    A row is the number of its line, and its numbers.
+    """
+
+    where: str
     heading: tuple[str, ...]
-    rows: tuple[NumberRow, ...]
+    rows: tuple[tuple[int, tuple[float, ...]], ...]
+
+    @property
+    def first(self) -> str:
+        """The heading of the first column; "" where it has none."""
+        return self.heading[0] if self.heading else ""
+
+    def beside_first(self, column: int, factor: float = 1.0) -> NumberTable:
+        """Return the table of its first column and another, times a factor."""
+        heading = (self.first, *self.heading[column : column + 1])
+        rows = ((line, (numbers[0], factor * numbers[column])) for line, numbers in self.rows)
+        return NumberTable(self.where, heading, tuple(rows))
+
+    def refuse_ragged(self) -> None:
+        """Raise BadInput for a row that has not as many numbers as there are names."""
+        for line, numbers in self.rows:
+            if len(numbers) != len(self.heading):
+                counts = f"{len(numbers)} numbers under {len(self.heading)} names"
+                raise BadInput(f"{self.where}: line {line} has {counts}; give a number under each")
 
 
 def read_numbers(text: str, where: str, columns: str) -> NumberTable:
@@ -398,7 +413,8 @@ def read_numbers(text: str, where: str, columns: str) -> NumberTable:
     if start == len(table):
         raise BadInput(f"{where}: has no rows; give a table of numbers: {columns}")
     heading = tuple(cell.strip() for cell in table[start - 1][1]) if start else ()
-    return NumberTable(heading, tuple(_row(*line, columns, where, comma) for line in table[start:]))
+    rows = ((line, _row(line, cells, columns, where, comma)) for line, cells in table[start:])
+    return NumberTable(where, heading, tuple(rows))
 
 
 def _lines(text: str, where: str) -> list[tuple[int, str]]:
@@ -447,7 +463,8 @@ def _plain(cell: str) -> str:
     return cell.strip().removesuffix("°").replace("−", "-").replace("\u00a0", "")
 
 
-def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> NumberRow:
+def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> tuple[float, ...]:
+    """Return the numbers of a line's cells; BadInput where they are too few, or one is none."""
     place, needed = f"{where}: line {line}", columns.count(",") + 1
     while len(cells) > needed and not cells[-1].strip():
         cells = cells[:-1]
@@ -459,7 +476,7 @@ def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> 
         if not math.isfinite(number):
             way_out = "; give a number" if cell.strip() else "; give a number, or leave the line out"
             raise BadInput(f"{place}, column {column}: {shown(cell)} is not a finite number{way_out}")
-    return NumberRow(line, tuple(numbers))
+    return tuple(numbers)
 
 
 def _number(cell: str, comma: bool) -> float:

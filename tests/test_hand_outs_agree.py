@@ -60,7 +60,7 @@ def _of_tables(found: Solution) -> Iterator[Shown]:
     request = found.request
     scene, tokens = request.scene, {one.token: one.value.symbol for one in found.results}
     parts = {called(body, scene.info.link_names): body.name for body in scene.linkage.bodies}
-    instant, pace = Instant(found.phase, ""), Pace(request.speed, "")
+    instant, pace = Instant(found.phase), Pace(request.speed, "")
     for table in value_tables(Values(scene), (instant,), (pace,), DIGITS):
         for _, rows in table.groups:
             for label, cells in rows:

@@ -313,7 +313,7 @@ def _in_the_hud(scene: Scene, pose: Pose) -> Iterator[str]:
 
 
 def _in_a_report(scene: Scene, pose: Pose) -> Iterator[str]:
-    instant, pace = Instant(pose.phase, ""), Pace(scene.linkage.drive.speed, "")
+    instant, pace = Instant(pose.phase), Pace(scene.linkage.drive.speed, "")
     for quantity in scene.quantities.values():
         if len(quantity.columns) == 1:
             told, own = _values(scene).of(quantity, instant, pace), quantity.shown(pose)

@@ -16,7 +16,7 @@ import numpy as np
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
-from linkanim.paper.illustration import DrawnPage
+from linkanim.paper.illustration import DrawnPage, LegendEntry, legend
 from linkanim.paper.sentences import about, without_subscripts
 from linkanim.picture.chart import (
     Pen,
@@ -25,7 +25,6 @@ from linkanim.picture.chart import (
     axes,
     curve_layer,
     dot,
-    line_layer,
     marked,
     paths,
     right_axis,
@@ -36,7 +35,7 @@ from linkanim.picture.items import Caption, Halo, Item
 from linkanim.picture.placing import Alternatives, chosen, crossed, grounded
 from linkanim.picture.quantities import Axis, linear, range_around, zeros_level
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import disc, segments
+from linkanim.picture.shapes import segments
 from linkanim.picture.view import Rect
 from linkanim.units import stepped
 from linkanim.words import said, said_as
@@ -92,6 +91,15 @@ class _Words(NamedTuple):
     places: Alternatives
     dotted: bool = False
 
+    def off_curves(self, tracks: list[tuple[Curve, _Line]], half: float) -> Alternatives:
+        """Return its places, of which none covers another curve, and rather not its own."""
+        places, size = self.places.places, self.places.size
+        others = np.array([[line for curve, line in tracks if curve is not self.curve]]).reshape(1, -1, 2)
+        own = np.array([[line for curve, line in tracks if curve is self.curve]]).reshape(1, -1, 2)
+        faults = np.asarray(crossed(places, size, others, np.full(others.shape[1], half)).any(axis=2))
+        covered = np.asarray(crossed(places, size, own, np.full(own.shape[1], half)).any(axis=2))[0]
+        return self.places._replace(faults=faults, price=self.places.price + 2.0 * covered)
+
 
 @frozen
 class Annotations:
@@ -142,7 +150,7 @@ class Annotations:
         """Yield words where there is room, each with its dot and, where it is far off, a line to that."""
         pen, half = self.pen, 0.6 * self.pen.line
         tracks = [(curve, line) for plot, curve in drawn for line in _tracks(plot, curve)]
-        to_place = [self._off_curves(one, tracks, half) for one in words]
+        to_place = [one.off_curves(tracks, half) for one in words]
         dots = [_around(one.at, _DOT * pen.line) for one in words if one.dotted]
         half_dot = 0.5 * _DOT * pen.line
         measured = [_around(at, half_dot) for at in _thinned(self.points, half_dot)]
@@ -160,15 +168,6 @@ class Annotations:
                 at = (middle.real - size[0] / 2, middle.imag - size[1] / 2)
                 halo = Halo(pen.theme.background, 0.2 * pen.small)
                 yield Caption(one.text, at, pen.small, pen.theme.ink, halo=halo)
-
-    def _off_curves(self, one: _Words, tracks: list[tuple[Curve, _Line]], half: float) -> Alternatives:
-        """Return the places of words, which cover no other curve and rather not their own."""
-        places, size = one.places.places, one.places.size
-        others = np.array([[line for curve, line in tracks if curve is not one.curve]]).reshape(1, -1, 2)
-        own = np.array([[line for curve, line in tracks if curve is one.curve]]).reshape(1, -1, 2)
-        faults = np.asarray(crossed(places, size, others, np.full(others.shape[1], half)).any(axis=2))
-        covered = np.asarray(crossed(places, size, own, np.full(own.shape[1], half)).any(axis=2))[0]
-        return one.places._replace(faults=faults, price=one.places.price + 2.0 * covered)
 
 
 def _apart(levels: Sequence[float], step: float, ends: tuple[float, float]) -> list[float]:
@@ -299,27 +298,27 @@ class Page(DrawnPage):
         rows = list(_rows(entries, whole.width, pen)) if len(entries) > 1 else []
         top = whole.y + (0 if self.brief else _LINE * pen.text)
         if self.brief and len(rows) == 1 and len(_by_unit(self.curves)) == 1:
-            left = whole.right + _APART * pen.small - sum(_wide(entry, pen) for entry in entries)
+            left = whole.right + _APART * pen.small - sum(entry.wide(pen, _APART) for entry in entries)
             wide = pen.type.width(self._y_title(self.curves.curves), pen.small)
             if left > whole.x + _LABELS * pen.small + wide:  # beside the axis' title
-                yield from _legend_row(rows.pop(), left, top + _LIFT * pen.small, pen)
+                yield from legend(left, top + _LIFT * pen.small, rows.pop(), pen, _APART)
         for n, row in enumerate(rows):
-            yield from _legend_row(row, whole.x, top + n * _LINE * pen.small, pen)
+            yield from legend(whole.x, top + n * _LINE * pen.small, row, pen, _APART)
         below = top + len(rows) * _LINE * pen.small
         yield from self._plots(whole._replace(y=below, height=whole.bottom - below))
 
-    def _legend(self) -> list[_Entry]:
+    def _legend(self) -> list[LegendEntry]:
         """Return the entries of the legend, less what the axes say; a curve alone in its strip has none."""
         measured = self.measured and self.measured.curve
         words = self.curves.name if self.brief or self._worded else self.curves.words
         entries = [
-            _Entry(words(curve), self.colour(curve), self.dashes(curve))
+            LegendEntry(words(curve), self.colour(curve), _WIDTH, self.dashes(curve))
             for group in _by_unit(self.curves)
             for curve in group
             if not self._in_strips or len(group) > 1 or curve is measured
         ]
         if self.measured:
-            entries.append(_Entry(self.measured.label, self.pen.theme.ink, dotted=True))
+            entries.append(LegendEntry(self.measured.label, self.pen.theme.ink, dotted=True))
         return entries
 
     @property
@@ -464,40 +463,12 @@ def _by_unit(curves: Curves) -> list[list[Curve]]:
     return list(groups.values())
 
 
-class _Entry(NamedTuple):
-    """A line or a dot of a legend, and what it stands for."""
-
-    words: str
-    colour: Colour
-    dashes: tuple[float, ...] = ()
-    dotted: bool = False
-
-
-def _swatch(pen: Pen) -> float:
-    return 2.6 * pen.small
-
-
-def _wide(entry: _Entry, pen: Pen) -> float:
-    return _swatch(pen) + 0.5 * pen.small + pen.type.width(entry.words, pen.small) + _APART * pen.small
-
-
-def _rows(entries: list[_Entry], width: float, pen: Pen) -> Iterator[list[_Entry]]:
+def _rows(entries: list[LegendEntry], width: float, pen: Pen) -> Iterator[list[LegendEntry]]:
     """Yield a legend's entries in lines no wider than the page."""
-    row: list[_Entry] = []
+    row: list[LegendEntry] = []
     for entry in entries:
-        if row and sum(_wide(other, pen) for other in (*row, entry)) > width:
+        if row and sum(other.wide(pen, _APART) for other in (*row, entry)) > width:
             yield row
             row = []
         row.append(entry)
     yield row
-
-
-def _legend_row(row: list[_Entry], x: float, y: float, pen: Pen) -> Iterator[Item]:
-    for entry in row:
-        start = complex(x, y + 0.5 * pen.small)
-        way = [start + np.array([0, _swatch(pen)])]
-        line = line_layer(way, entry.colour, _WIDTH * pen.line, entry.dashes)
-        dot = Layer(entry.colour, [start + _swatch(pen) / 2 + disc(1.8 * pen.line)])
-        yield dot if entry.dotted else line
-        yield Caption(entry.words, (x + _swatch(pen) + 0.5 * pen.small, y), pen.small, pen.theme.ink)
-        x += _wide(entry, pen)

@@ -20,7 +20,7 @@ from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns
 from linkanim.frozen import frozen
-from linkanim.intake import Intake, NumberRow, NumberTable, named, read_numbers
+from linkanim.intake import Intake, NumberTable, named, read_numbers
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, plain_unit
 from linkanim.mechanics.search import highest
@@ -268,18 +268,6 @@ _MOST_SHOWN, _ENDS = 40, 15
 _DIGITS = 7
 
 
-class MeasuredTable(NamedTuple):
-    """A table of two columns: where it is from, the heading of the first (or ""), its rows."""
-
-    where: str
-    heading: str
-    rows: tuple[NumberRow, ...]
-
-    def column(self, number: int) -> Floats:
-        """Return a column, 0 or 1, as an array (n,)."""
-        return np.array([row.numbers[number] for row in self.rows])
-
-
 @frozen
 class MeasuredCurve:
     """A table beside a curve: its places along the curve's axis, both values and their difference (n,).
@@ -335,7 +323,7 @@ _UNITS: dict[Over, str] = {"angle": "deg", "phase": "deg", "time": "s"}
 _WORDS: dict[Over, str] = {"angle": "degrees", "phase": "degrees", "time": "seconds"}
 
 
-def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
+def read_table(path: Path, over: Over, one: Quantity) -> NumberTable:
     """Return two columns of a table: its first, which is what `--over` says, and that of a quantity.
 
     Of more than two columns the second is the one that has the quantity as its heading. Angles are in
@@ -350,7 +338,7 @@ def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
                 f"{where}: line {line} has {len(numbers)} whole numbers: a comma in it is a decimal mark or "
                 "stands between columns; put semicolons between the columns"
             )
-    first, n = read.heading[0] if read.heading else "", 1
+    n = 1
     if len(read.heading) > 2:
         if one.token not in read.heading[1:]:
             raise BadInput(
@@ -358,13 +346,11 @@ def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
                 "or give two columns"
             )
         n = read.heading.index(one.token)
-        _refuse_ragged(read, where)
-    factor = np.degrees(1.0) if first == _OURS and one.unit == "rad" else 1.0
-    rows = (NumberRow(line, (row[0], factor * row[n])) for line, row in read.rows)
-    return MeasuredTable(where, first, tuple(rows))
+        read.refuse_ragged()
+    return read.beside_first(n, np.degrees(1.0) if read.first == _OURS and one.unit == "rad" else 1.0)
 
 
-def read_tables(path: Path) -> dict[str, MeasuredTable]:
+def read_tables(path: Path) -> dict[str, NumberTable]:
     """Return each further column of a table beside its first one, by the quantity that heads it.
 
     BadInput as `read_table`, and where the columns have no names or a row has another number of cells.
@@ -374,28 +360,20 @@ def read_tables(path: Path) -> dict[str, MeasuredTable]:
     tokens = numbers.heading[1:]
     if not tokens:
         raise BadInput(f"{where}: its columns have no names; head them, such as angle, 3.angular_velocity")
-    _refuse_ragged(numbers, where)
-    return {
-        token: MeasuredTable(
-            where, numbers.heading[0], tuple(NumberRow(line, (row[0], row[n])) for line, row in numbers.rows)
-        )
-        for n, token in enumerate(tokens, 1)
-    }
+    numbers.refuse_ragged()
+    return {token: numbers.beside_first(n) for n, token in enumerate(tokens, 1)}
 
 
-def _refuse_ragged(table: NumberTable, where: str) -> None:
-    """Raise BadInput for a row that has not as many numbers as there are names."""
-    for line, numbers in table.rows:
-        if len(numbers) != len(table.heading):
-            counts = f"{len(numbers)} numbers under {len(table.heading)} names"
-            raise BadInput(f"{where}: line {line} has {counts}; give a number under each")
+def _column(table: NumberTable, number: int) -> Floats:
+    """Return a column as an array (n,)."""
+    return np.array([row[number] for _, row in table.rows])
 
 
 def compared(
-    scene: Scene, token: str, pace: Pace, table: MeasuredTable, label: str
+    scene: Scene, token: str, pace: Pace, table: NumberTable, label: str
 ) -> tuple[Curves, MeasuredCurve]:
     """Return a quantity's curve with a table beside it, over that one's input; errors as `comparison`."""
-    over: Over | None = "time" if _SECONDS.match(table.heading) else None
+    over: Over | None = "time" if _SECONDS.match(table.first) else None
     curves = curves_of(scene, (token,), (pace,), over)
     return curves, comparison(curves, table, label)
 
@@ -405,7 +383,7 @@ def usual_over(curves: Curves) -> Over:
     return curves.over or ("angle" if curves.scene.linkage.drive.coordinate.is_angle else "time")
 
 
-def comparison(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
+def comparison(curves: Curves, table: NumberTable, label: str) -> MeasuredCurve:
     """Return a table beside the first curve, each of its rows solved exactly.
 
     OutOfRange for an angle that the input does not reach. BadInput where the first column is not what
@@ -417,18 +395,18 @@ def comparison(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurv
         token = curve.quantity.token
         raise BadInput(f"--data goes with one curve; take {token}.x or {token}.y")
     _refuse_other_unit(curves, curve, table, over)
-    phases = _phases(curves, curve, table.column(0), over)
+    phases = _phases(curves, curve, _column(table, 0), over)
     if np.isnan(phases).any():
-        row = table.rows[int(np.isnan(phases).argmax())]
+        line, row = table.rows[int(np.isnan(phases).argmax())]
         raise OutOfRange(
-            f"{table.where}: line {row.line}, column 1: the input of {curves.scene.name} does not reach "
-            f"{row.numbers[0]:g} deg; for times add --over time"
+            f"{table.where}: line {line}, column 1: the input of {curves.scene.name} does not reach "
+            f"{row[0]:g} deg; for times add --over time"
         )
-    ours, differences = _differences(curves, curve, phases, table.column(1))
+    ours, differences = _differences(curves, curve, phases, _column(table, 1))
     if not np.isfinite(differences).any():
         raise BadInput(f"{label}: {curve.quantity.token} has no value at any row of it")
     places = curves.places(curve, curves.scene.solve(phase=phases, derivatives=0))
-    known = (table.column(0), np.asarray(places, float), table.column(1), ours, differences)
+    known = (_column(table, 0), np.asarray(places, float), _column(table, 1), ours, differences)
     return MeasuredCurve(label, curve, over, *known)
 
 
@@ -449,30 +427,30 @@ def _differences(curves: Curves, curve: Curve, phases: Floats, values: Floats) -
     return values - differences, differences
 
 
-def _refuse_other_unit(curves: Curves, curve: Curve, table: MeasuredTable, over: Over) -> None:
+def _refuse_other_unit(curves: Curves, curve: Curve, table: NumberTable, over: Over) -> None:
     """Raise BadInput for seconds where degrees are meant, and the other way round."""
     in_time = over == "time"
     degrees: Over = "angle" if curves.scene.linkage.drive.coordinate.is_angle else "phase"
     other: Over = degrees if in_time else "time"
-    headed = not in_time and bool(_SECONDS.match(table.heading))
+    headed = not in_time and bool(_SECONDS.match(table.first))
     if headed or _misfit(curves, curve, table, over) > _CLEARLY * _misfit(curves, curve, table, other):
-        why = f"is headed {shown(table.heading)}" if headed else f"fits as {_WORDS[other]}"
+        why = f"is headed {shown(table.first)}" if headed else f"fits as {_WORDS[other]}"
         raise BadInput(
             f"{table.where}: column 1 {why}, and is read as {_WORDS[over]}; add --over {other}, or give "
             f"{_WORDS[over]}"
         )
 
 
-def _misfit(curves: Curves, curve: Curve, table: MeasuredTable, over: Over) -> float:
+def _misfit(curves: Curves, curve: Curve, table: NumberTable, over: Over) -> float:
     """Return the median of a table's differences where its first column is read as `over`.
 
     It is inf where the input does not reach an angle, NaN for a table that is too short to tell.
     """
     if len(table.rows) < _FEWEST:
         return np.nan
-    phases = _phases(curves, curve, table.column(0), over)
+    phases = _phases(curves, curve, _column(table, 0), over)
     if np.isnan(phases).any():
         return np.inf
-    _, differences = _differences(curves, curve, phases, table.column(1))
+    _, differences = _differences(curves, curve, phases, _column(table, 1))
     known = differences[np.isfinite(differences)]
     return float(np.median(abs(known))) if known.size else np.inf

@@ -36,6 +36,34 @@ class DeckSlide(NamedTuple):
     title: str
     notes: str
 
+    def markup(self, height: int, *, titled: bool) -> str:
+        """Return a slide: its title, if it shows one, and its picture, as large as fits below."""
+        top = round(_TITLE * height) if titled else 0
+        scale = min(WIDTH / self.size[0], (height - top) / self.size[1])
+        wide, high = (round(scale * side) for side in self.size)
+        at = f'<a:off x="{(WIDTH - wide) // 2}" y="{top + (height - top - high) // 2}"/>'
+        title = _text("Title", "title", self.title) if titled else ""
+        picture = (
+            f'<p:pic><p:nvPicPr><p:cNvPr id="4" name={quoteattr(self.title)} descr={quoteattr(self.notes)}/>'
+            '<p:cNvPicPr><a:picLocks noChangeAspect="1"/></p:cNvPicPr><p:nvPr/></p:nvPicPr>'
+            '<p:blipFill><a:blip r:embed="rId2"/><a:stretch><a:fillRect/></a:stretch></p:blipFill>'
+            f'<p:spPr><a:xfrm>{at}<a:ext cx="{wide}" cy="{high}"/></a:xfrm>'
+            '<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></p:spPr></p:pic>'
+        )
+        tree = _tree(title + picture)
+        return f"{_HEAD}<p:sld {_SPACES}><p:cSld>{tree}</p:cSld>{_COLOURS_OF_MASTER}</p:sld>"
+
+    def notes_markup(self) -> str:
+        """Return the page of its notes."""
+        image = (
+            '<p:sp><p:nvSpPr><p:cNvPr id="2" name="Slide"/><p:cNvSpPr><a:spLocks noGrp="1" noRot="1" '
+            'noChangeAspect="1"/></p:cNvSpPr><p:nvPr><p:ph type="sldImg"/></p:nvPr></p:nvSpPr>'
+            "<p:spPr/></p:sp>"
+        )
+        body = _text("Notes", 'body" idx="1', self.notes)
+        tree = _tree(image + body)
+        return f"{_HEAD}<p:notes {_SPACES}><p:cSld>{tree}</p:cSld>{_COLOURS_OF_MASTER}</p:notes>"
+
 
 def below_title(size: tuple[int, int]) -> tuple[int, int]:
     """Return the size of a picture under the title of a slide that has the shape of `size`; even numbers."""
@@ -89,14 +117,14 @@ def _parts(slides: Sequence[DeckSlide], height: int, *, titled: bool) -> Iterato
     )
     for n, slide in zip(numbers, slides, strict=True):
         yield f"ppt/media/image{n}.gif", slide.gif
-        yield f"ppt/slides/slide{n}.xml", _slide(slide, height, titled=titled)
+        yield f"ppt/slides/slide{n}.xml", slide.markup(height, titled=titled)
         shown = {
             "rId1": ("slideLayout", "../slideLayouts/slideLayout1.xml"),
             "rId2": ("image", f"../media/image{n}.gif"),
             "rId3": ("notesSlide", f"../notesSlides/notesSlide{n}.xml"),
         }
         yield f"ppt/slides/_rels/slide{n}.xml.rels", _relations(shown)
-        yield f"ppt/notesSlides/notesSlide{n}.xml", _notes(slide)
+        yield f"ppt/notesSlides/notesSlide{n}.xml", slide.notes_markup()
         said = {
             "rId1": ("notesMaster", "../notesMasters/notesMaster1.xml"),
             "rId2": ("slide", f"../slides/slide{n}.xml"),
@@ -149,33 +177,6 @@ def _title_box(height: int) -> str:
     """Return where titles stand."""
     side = round(0.03 * WIDTH)
     return f'<a:off x="{side}" y="0"/><a:ext cx="{WIDTH - 2 * side}" cy="{round(_TITLE * height)}"/>'
-
-
-def _slide(slide: DeckSlide, height: int, *, titled: bool) -> str:
-    """Return a slide: its title, if it shows one, and its picture, as large as fits below."""
-    top = round(_TITLE * height) if titled else 0
-    scale = min(WIDTH / slide.size[0], (height - top) / slide.size[1])
-    wide, high = (round(scale * side) for side in slide.size)
-    at = f'<a:off x="{(WIDTH - wide) // 2}" y="{top + (height - top - high) // 2}"/>'
-    title = _text("Title", "title", slide.title) if titled else ""
-    picture = (
-        f'<p:pic><p:nvPicPr><p:cNvPr id="4" name={quoteattr(slide.title)} descr={quoteattr(slide.notes)}/>'
-        '<p:cNvPicPr><a:picLocks noChangeAspect="1"/></p:cNvPicPr><p:nvPr/></p:nvPicPr>'
-        '<p:blipFill><a:blip r:embed="rId2"/><a:stretch><a:fillRect/></a:stretch></p:blipFill>'
-        f'<p:spPr><a:xfrm>{at}<a:ext cx="{wide}" cy="{high}"/></a:xfrm>'
-        '<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></p:spPr></p:pic>'
-    )
-    return f"{_HEAD}<p:sld {_SPACES}><p:cSld>{_tree(title + picture)}</p:cSld>{_COLOURS_OF_MASTER}</p:sld>"
-
-
-def _notes(slide: DeckSlide) -> str:
-    image = (
-        '<p:sp><p:nvSpPr><p:cNvPr id="2" name="Slide"/><p:cNvSpPr><a:spLocks noGrp="1" noRot="1" '
-        'noChangeAspect="1"/></p:cNvSpPr><p:nvPr><p:ph type="sldImg"/></p:nvPr></p:nvSpPr><p:spPr/></p:sp>'
-    )
-    body = _text("Notes", 'body" idx="1', slide.notes)
-    tree = _tree(image + body)
-    return f"{_HEAD}<p:notes {_SPACES}><p:cSld>{tree}</p:cSld>{_COLOURS_OF_MASTER}</p:notes>"
 
 
 def _text(name: str, kind: str, words: str) -> str:

@@ -6,7 +6,7 @@ which a report on a mechanism goes.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from itertools import chain
 from math import degrees, isinf, isnan, nan, pi, remainder, tau
@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.errors import OutOfRange
-from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import reversals
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage
@@ -40,15 +39,18 @@ class Instant(NamedTuple):
     """A phase that the report looks at, and why."""
 
     phase: float
-    words: str
+    words: str = ""
+
+    def place(self, scene: Scene) -> str:
+        """Return where the input is, and why that is looked at: θ₂ = 0.00° (start)."""
+        symbol, angle = input_symbol(scene.linkage), scene.pose(self.phase, 0).coordinate
+        turned = angle % tau if scene.info.full_turn else angle
+        place = f"{symbol} = {scene.linkage.drive.coordinate.text(turned, scene.length_unit, 0.01)}"
+        return said("{place} ({words})", place=place, words=self.words) if self.words else place
 
 
-class Finding(NamedTuple):
-    """A quantity at one instant: its words and symbol, its unit, and a value for each speed."""
-
-    quantity: Quantity
-    unit: str
-    values: tuple[str, ...]
+Sheet = Mapping[str, Sequence[tuple[Quantity, Sequence[str]]]]
+"""Quantities with their values at each speed, under the heading of their part."""
 
 
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
@@ -62,7 +64,7 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
                 f"{scene.name}: --angles {_in_degrees(angle)} cannot be reached; "
                 f"the {scene.info.input_name} angle goes {scene.info.ranges('from {} to {}', _in_degrees)}"
             )
-    return tuple(Instant(mechanism.phase_of(angle, 0.0), "") for angle in angles)
+    return tuple(Instant(mechanism.phase_of(angle, 0.0)) for angle in angles)
 
 
 def _in_degrees(angle: float) -> str:
@@ -128,31 +130,17 @@ class Values:
         return quantity.changes(self._cycle)
 
 
-def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> dict[str, list[Finding]]:
+def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> Sheet:
     """Return every quantity of a scene at one instant, at each speed, under the heading of its part.
 
     A vector is given by its components, which have tokens of their own.
     """
-    sections: dict[str, list[Finding]] = {}
+    sections: dict[str, list[tuple[Quantity, list[str]]]] = {}
     for quantity in values.scene.quantities.values():
-        rows = sections.setdefault(_section(quantity), [])
+        rows = sections.setdefault(quantity.part or said("Whole mechanism"), [])
         if len(quantity.columns) == 1:
-            values_at = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
-            rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), values_at))
+            rows.append((quantity, [rounded(values.of(quantity, instant, pace), digits) for pace in paces]))
     return sections
-
-
-def place_of(scene: Scene, instant: Instant) -> str:
-    """Return where the input is at an instant, and why that is looked at: θ₂ = 0.00° (start)."""
-    symbol, angle = input_symbol(scene.linkage), scene.pose(instant.phase, 0).coordinate
-    turned = angle % tau if scene.info.full_turn else angle
-    place = f"{symbol} = {scene.linkage.drive.coordinate.text(turned, scene.length_unit, 0.01)}"
-    return said("{place} ({words})", place=place, words=instant.words) if instant.words else place
-
-
-def _section(quantity: Quantity) -> str:
-    """Return the heading under which a quantity stands: its part, as its words name it."""
-    return quantity.part or said("Whole mechanism")
 
 
 def charted(values: Values) -> Iterator[str]:
@@ -217,16 +205,6 @@ _GUIDES = to_say("the force N to the left of the guide's line, the moment M abou
 _STRUTS = to_say("length L, direction θ, rate of length v and force F")
 
 
-class Family(NamedTuple):
-    """The subject of a table: title, content, what a row is called, its parts, symbols by measure."""
-
-    title: str
-    about: str
-    head: str
-    parts: tuple[tuple[str, str], ...]
-    measures: dict[str, str]
-
-
 class Column(NamedTuple):
     """A column of numbers: its symbol and unit, the measure, and the speed that it is at, None for any."""
 
@@ -236,8 +214,7 @@ class Column(NamedTuple):
     pace: Pace | None
 
 
-@frozen
-class ValueTable:
+class ValueTable(NamedTuple):
     """A table: its title, its content, its columns, and under each instant a row for each part."""
 
     title: str
@@ -248,6 +225,53 @@ class ValueTable:
     notes: tuple[str, ...]
 
 
+class Family(NamedTuple):
+    """The subject of a table: title, content, what a row is called, its parts, symbols by measure."""
+
+    title: str
+    about: str
+    head: str
+    parts: tuple[tuple[str, str], ...]
+    measures: dict[str, str]
+
+    def columns(self, values: Values, paces: tuple[Pace, ...], *, first: bool) -> Iterator[Column]:
+        """Yield the columns: a measure that is the same at every speed once, if `first`; others at each."""
+        for measure, symbol in self.measures.items():
+            quantities = [one for _, part in self.parts if (one := _quantity(values, part, measure))]
+            if quantities:
+                unit = quantities[0].shown_unit(values.scene.length_unit)
+                order = max(one.order for one in quantities)
+                if order or first:
+                    yield from (Column(symbol, unit, measure, pace) for pace in (paces if order else (None,)))
+
+    def table(
+        self, values: Values, columns: tuple[Column, ...], instants: tuple[Instant, ...], digits: int
+    ) -> ValueTable:
+        """Return the table of these columns, with all instants; of one part it has a row for each."""
+        unbounded, unknown = [], False
+        groups: list[tuple[str, tuple[tuple[str, tuple[str, ...]], ...]]] = []
+        for instant in instants:
+            values_of = {
+                label: [_value(values, part, column, instant) for column in columns]
+                for label, part in self.parts
+            }
+            if any(isinf(value) for row in values_of.values() for value in row):
+                unbounded.append(Instant(instant.phase).place(values.scene))
+            unknown |= any(isnan(value) for row in values_of.values() for value in row)
+            rows = tuple(
+                (label, tuple(rounded(one, digits) for one in row)) for label, row in values_of.items()
+            )
+            groups.append((instant.place(values.scene), rows))
+        places = said_as("list", ", ").join(unbounded)
+        notes = [said("∞: unbounded at {places}.", places=places)] if unbounded else []
+        notes += [said("–: has no value there, or is not given.")] if unknown else []
+        if len(self.parts) > 1:
+            return ValueTable(self.title, self.about, self.head, columns, tuple(groups), tuple(notes))
+        (title, _), *_ = self.parts
+        alone = tuple((place, cells) for place, rows in groups for _, cells in rows)
+        return ValueTable(title or self.title, self.about, said("at"), columns, (("", alone),), tuple(notes))
+
+
 def value_tables(
     values: Values, instants: tuple[Instant, ...], paces: tuple[Pace, ...], digits: int
 ) -> Iterator[ValueTable]:
@@ -255,9 +279,9 @@ def value_tables(
     for family in _families(values):
         for start in range(0, len(paces), _MOST_SPEEDS):
             some = paces[start : start + _MOST_SPEEDS]
-            columns = tuple(_columns(values, family, some, first=not start))
+            columns = tuple(family.columns(values, some, first=not start))
             if columns:
-                yield _table(values, family, columns, instants, digits)
+                yield family.table(values, columns, instants, digits)
 
 
 def _families(values: Values) -> Iterator[Family]:
@@ -310,44 +334,6 @@ def _quantity(values: Values, part: str, measure: str) -> Quantity | None:
     return values.scene.quantities.get(f"{part}.{measure}" if part else measure)
 
 
-def _columns(values: Values, family: Family, paces: tuple[Pace, ...], *, first: bool) -> Iterator[Column]:
-    """Yield the columns: a measure that is the same at every speed once, if `first`; others at each."""
-    for measure, symbol in family.measures.items():
-        quantities = [one for _, part in family.parts if (one := _quantity(values, part, measure))]
-        if quantities:
-            unit, order = (
-                quantities[0].shown_unit(values.scene.length_unit),
-                max(one.order for one in quantities),
-            )
-            if order or first:
-                yield from (Column(symbol, unit, measure, pace) for pace in (paces if order else (None,)))
-
-
-def _table(
-    values: Values, family: Family, columns: tuple[Column, ...], instants: tuple[Instant, ...], digits: int
-) -> ValueTable:
-    unbounded, unknown = [], False
-    groups: list[tuple[str, tuple[tuple[str, tuple[str, ...]], ...]]] = []
-    for instant in instants:
-        values_of = {
-            label: [_value(values, part, column, instant) for column in columns]
-            for label, part in family.parts
-        }
-        if any(isinf(value) for row in values_of.values() for value in row):
-            unbounded.append(place_of(values.scene, instant._replace(words="")))
-        unknown |= any(isnan(value) for row in values_of.values() for value in row)
-        rows = tuple((label, tuple(rounded(one, digits) for one in row)) for label, row in values_of.items())
-        groups.append((place_of(values.scene, instant), rows))
-    places = said_as("list", ", ").join(unbounded)
-    notes = [said("∞: unbounded at {places}.", places=places)] if unbounded else []
-    notes += [said("–: has no value there, or is not given.")] if unknown else []
-    if len(family.parts) > 1:
-        return ValueTable(family.title, family.about, family.head, columns, tuple(groups), tuple(notes))
-    (title, _), *_ = family.parts
-    alone = tuple((place, cells) for place, rows in groups for _, cells in rows)
-    return ValueTable(title or family.title, family.about, said("at"), columns, (("", alone),), tuple(notes))
-
-
 def _value(values: Values, part: str, column: Column, instant: Instant) -> float:
     quantity = _quantity(values, part, column.measure)
     if quantity is None:
@@ -365,84 +351,77 @@ _SHORT_NAME = 2
 """The most letters of a name that stands behind a noun: link 3, slider C."""
 
 
-class PlannedChart(NamedTuple):
-    """A chart of some quantities, and what it is called."""
-
-    tokens: tuple[str, ...]
-    caption: str
+Chart = tuple[tuple[str, ...], str]
+"""A chart's quantities, and what it is called."""
 
 
-def topics(values: Values, paces: tuple[Pace, ...]) -> dict[str, list[PlannedChart]]:
-    """Return the charts by topic; nothing of what does not change, no topic without a chart."""
-    charts_of = {title: [*charts] for title, charts in _ChartChoice(values, several=len(paces) > 1).topics()}
-    return {title: charts for title, charts in charts_of.items() if charts}
+def topics(values: Values, paces: tuple[Pace, ...]) -> dict[str, list[Chart]]:
+    """Return the charts by topic; nothing of what does not change, no topic without a chart.
 
+    At several speeds each quantity that they change has a chart of its own.
+    """
+    several = len(paces) > 1
 
-@frozen
-class _ChartChoice:
-    values: Values
-    several: bool
-    """Whether there are several speeds: each quantity that they change then has a chart of its own."""
-
-    def topics(self) -> Iterator[tuple[str, Iterable[PlannedChart]]]:
-        """Yield the title and the charts of each topic."""
-        linkage = self.values.scene.linkage
-        # a crank that is driven itself turns as the input does
-        driven = linkage.drive.actuator.along is None
-        cranks = {body.name for body in linkage.bodies if driven and linkage.crank_of(body)}
-        turning = [body.name for body in bodies_in_chain(linkage) if body.name not in cranks]
-        sliding = [body.name for body in linkage.bodies if body.slider]
-        massive = [body.name for body in linkage.bodies if body.com is not None and body.name not in cranks]
-        struts = [strut.name for strut in linkage.springs + linkage.dampers]
-        traced = [] if self.several and turning else [*self.values.scene.trace]
-        links, whole = [*turning, *sliding], self._charts(["transmission_angle"])
-        places = self._all(("angle", turning), ("travel", sliding))
-        yield said("Positions"), chain(places, whole, self._all(("coefficient", links)))
-        rates = ("angular_{}", turning), ("travel_{}", sliding), ("{}", traced)
-        velocities, accelerations = (
-            [(form.format(rate), parts) for form, parts in rates] for rate in ("velocity", "acceleration")
-        )
-        yield said("Velocities"), self._all(*velocities)
-        yield said("Accelerations"), self._all(("second_coefficient", links), *accelerations)
-        yield said("Centres of mass"), self._all(("com_velocity", massive), ("com_acceleration", massive))
-        effort = self._charts([effort_token(linkage)])
-        of_struts = self._all(("length", struts), ("rate", struts), ("force", struts))
-        yield said("Springs, dampers and input") if struts else said("Input"), [*of_struts, *effort]
-
-    def _all(self, *planned: tuple[str, list[str]]) -> Iterator[PlannedChart]:
+    def of(*planned: tuple[str, list[str]]) -> Iterator[Chart]:
         for measure, parts in planned:
-            yield from self._charts([f"{part}.{measure}" for part in parts])
+            yield from _charts(values, [f"{part}.{measure}" for part in parts], several=several)
 
-    def _charts(self, tokens: list[str]) -> Iterator[PlannedChart]:
-        """Yield one chart of the quantities that no speed changes, and one of each that it changes."""
-        known = self.values.scene.quantities
-        changing = [token for token in tokens if token in known and self.values.changes(known[token])]
-        fixed = [token for token in changing if not (self.several and known[token].order)]
-        apart = [token for token in changing if token not in fixed]
-        for some in (fixed[:_MOST_CURVES], *([token] for token in apart[:_MOST_CURVES])):
-            if some:
-                yield PlannedChart(tuple(some), self._caption(some))
+    linkage = values.scene.linkage
+    # a crank that is driven itself turns as the input does
+    driven = linkage.drive.actuator.along is None
+    cranks = {body.name for body in linkage.bodies if driven and linkage.crank_of(body)}
+    turning = [body.name for body in bodies_in_chain(linkage) if body.name not in cranks]
+    sliding = [body.name for body in linkage.bodies if body.slider]
+    massive = [body.name for body in linkage.bodies if body.com is not None and body.name not in cranks]
+    struts = [strut.name for strut in linkage.springs + linkage.dampers]
+    traced = [] if several and turning else [*values.scene.trace]
+    links, whole = [*turning, *sliding], _charts(values, ["transmission_angle"], several=several)
+    effort = _charts(values, [effort_token(linkage)], several=several)
+    rates = ("angular_{}", turning), ("travel_{}", sliding), ("{}", traced)
+    velocities, accelerations = (
+        [(form.format(rate), parts) for form, parts in rates] for rate in ("velocity", "acceleration")
+    )
+    positions = chain(of(("angle", turning), ("travel", sliding)), whole, of(("coefficient", links)))
+    of_struts = of(("length", struts), ("rate", struts), ("force", struts))
+    charts = {
+        said("Positions"): positions,
+        said("Velocities"): of(*velocities),
+        said("Accelerations"): of(("second_coefficient", links), *accelerations),
+        said("Centres of mass"): of(("com_velocity", massive), ("com_acceleration", massive)),
+        said("Springs, dampers and input") if struts else said("Input"): chain(of_struts, effort),
+    }
+    return {title: some for title, planned in charts.items() if (some := [*planned])}
 
-    def _caption(self, tokens: list[str]) -> str:
-        """Return what is charted of which parts: "Angular velocity of link 3, link 4"."""
-        known = [self.values.scene.quantities[token] for token in tokens]
-        if not known[0].part:
-            return known[0].measure
-        parts = [one.part for one in known]
-        what = said_as("list", " and ").join(dict.fromkeys(one.measure for one in known))
-        if parts == [said("Input")]:
-            return said("Input {measure}", measure=what)
-        form = to_say("{measure} of {parts}")
-        if all(".com_" in token for token in tokens):
-            scene = self.values.scene
-            parts = [
-                called(scene.linkage.body(token.partition(".")[0]), scene.info.link_names) for token in tokens
-            ]
-            form = to_say("{measure} of the centres of mass of {parts}")
-            if len(parts) == 1:
-                form = to_say("{measure} of the centre of mass of {parts}")
-        caption = said(form, measure=what, parts=row_said([*map(_in_sentence, parts)]))
-        return caption[:1].upper() + caption[1:]
+
+def _charts(values: Values, tokens: list[str], *, several: bool) -> Iterator[Chart]:
+    """Yield one chart of the quantities that no speed changes, and one of each that it changes."""
+    known = values.scene.quantities
+    changing = [token for token in tokens if token in known and values.changes(known[token])]
+    fixed = [token for token in changing if not (several and known[token].order)]
+    apart = [token for token in changing if token not in fixed]
+    for some in (fixed[:_MOST_CURVES], *([token] for token in apart[:_MOST_CURVES])):
+        if some:
+            yield tuple(some), _caption(values.scene, some)
+
+
+def _caption(scene: Scene, tokens: list[str]) -> str:
+    """Return what is charted of which parts: "Angular velocity of link 3, link 4"."""
+    known = [scene.quantities[token] for token in tokens]
+    if not known[0].part:
+        return known[0].measure
+    parts = [one.part for one in known]
+    what = said_as("list", " and ").join(dict.fromkeys(one.measure for one in known))
+    if parts == [said("Input")]:
+        return said("Input {measure}", measure=what)
+    form = to_say("{measure} of {parts}")
+    if all(".com_" in token for token in tokens):
+        links = (scene.linkage.body(token.partition(".")[0]) for token in tokens)
+        parts = [called(link, scene.info.link_names) for link in links]
+        form = to_say("{measure} of the centres of mass of {parts}")
+        if len(parts) == 1:
+            form = to_say("{measure} of the centre of mass of {parts}")
+    caption = said(form, measure=what, parts=row_said([*map(_in_sentence, parts)]))
+    return caption[:1].upper() + caption[1:]
 
 
 def _in_sentence(part: str) -> str:

@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from html import escape
-from itertools import count
+from itertools import chain, count
 from typing import Literal
 
 from linkanim.explain.documents import body_style, math_style
 from linkanim.frozen import frozen
-from linkanim.paper.findings import Column, Finding, ValueTable
+from linkanim.paper.findings import Column, Sheet, ValueTable
 from linkanim.paper.svg import RIMMED, in_steps
 from linkanim.units import signed
 from linkanim.words import html_language, said
@@ -79,6 +79,10 @@ def embedded(picture: str, title: str, style: str = "") -> str:
     return in_steps(drawn.replace(RIMMED, "")).replace("<svg ", spoken + RIMMED.lstrip() + " ", 1)
 
 
+Numbers = Mapping[str, Iterator[int]]
+"""The numbers of figures and tables that come next."""
+
+
 @frozen
 class FigurePart:
     """A picture as SVG, with its caption, which its number comes before; its greatest height in mm.
@@ -92,6 +96,16 @@ class FigurePart:
     words: str = ""
     broad: bool = False
 
+    def markup(self, numbers: Numbers) -> str:
+        """Return it with its number."""
+        n = next(numbers["figure"])
+        title = said("Figure {number}. {caption}", number=n, caption=self.caption)
+        spoken = said("{title}. {words}", title=title, words=self.words) if self.words else title
+        drawn = embedded(self.picture, spoken, f"max-height: {self.highest}mm")
+        below = paragraph(self.words, "seen") if self.words else ""
+        told = f"<figcaption>{unbroken(title)}</figcaption>{below}"
+        return f"<figure id='figure-{n}'>{drawn}{told}</figure>"
+
 
 @frozen
 class TablePart:
@@ -102,6 +116,13 @@ class TablePart:
     count: int
     kind: str = ""
     notes: tuple[str, ...] = ()
+
+    def markup(self, numbers: Numbers) -> str:
+        """Return it with its number."""
+        title = said("Table {number}. {caption}", number=next(numbers["table"]), caption=self.caption)
+        table = f"<table class='{self.kind}'><caption>{symbol(title)}</caption>{self.rows}</table>"
+        notes = "".join(paragraph(note, "note") for note in self.notes)
+        return f"{_KEPT if self.count <= _ROWS_KEPT else _LONG}{table}{notes}</div>"
 
 
 @frozen
@@ -114,6 +135,18 @@ class Beside:
     parts: tuple[Part | tuple[Part, ...], ...]
     across: int = 2
     shares: tuple[int, ...] = ()
+
+    @property
+    def columns(self) -> list[tuple[Part, ...]]:
+        """The parts below each other, column by column."""
+        return [one if isinstance(one, tuple) else (one,) for one in self.parts]
+
+    def markup(self, numbers: Numbers) -> str:
+        """Return them, each figure and table with its number."""
+        inside = ("\n".join(_written(one, numbers) for one in column) for column in self.columns)
+        widths = " ".join(f"{share}fr" for share in self.shares) or f"repeat({self.across}, 1fr)"
+        grid = f"<div class='beside' style='grid-template-columns: {widths}'>"
+        return "\n".join([grid, *(f"<div>{one}</div>" for one in inside), "</div>"])
 
 
 Part = str | FigurePart | TablePart | Beside
@@ -134,10 +167,10 @@ def page(
     style = _STYLE.replace("FOOT", _FOOT % _css_text(title)) + math_style()
     meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
     start = f"{meta}<title>{escape(title)}</title><style>{style}</style>"
-    figures, tables = count(1), count(1)
+    numbers: Numbers = {"figure": count(1), "table": count(1)}
     chapters = [(name, list(parts)) for name, parts in chapters]
     numbered = [
-        (n, name, [_written(part, figures, tables) for part in parts])
+        (n, name, [_written(part, numbers) for part in parts])
         for n, (name, parts) in enumerate(chapters, start=1)
     ]
     entries = "".join(f"<li><a href='#chapter-{n}'>{n} {symbol(name)}</a></li>" for n, name, _ in numbered)
@@ -176,12 +209,10 @@ def _figures_of(chapters: Iterable[tuple[str, Iterable[Part]]]) -> str:
 
 def _figures_in(parts: Iterable[Part]) -> Iterator[FigurePart]:
     for part in parts:
-        match part:
-            case FigurePart():
-                yield part
-            case Beside(inside):
-                for one in inside:
-                    yield from _figures_in(one if isinstance(one, tuple) else (one,))
+        if isinstance(part, FigurePart):
+            yield part
+        elif isinstance(part, Beside):
+            yield from _figures_in(chain(*part.columns))
 
 
 def _sectioned(title: str, parts: list[str]) -> str:
@@ -197,32 +228,8 @@ def _css_text(text: str) -> str:
     return "'" + re.sub(r"[^\w .,-]", lambda match: f"\\{ord(match[0]):x} ", text) + "'"
 
 
-def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
-    match part:
-        case str():
-            return part
-        case FigurePart(picture, caption, highest, words, _):
-            number = next(figures)
-            title = said("Figure {number}. {caption}", number=number, caption=caption)
-            drawn = embedded(
-                picture,
-                said("{title}. {words}", title=title, words=words) if words else title,
-                f"max-height: {highest}mm",
-            )
-            below = paragraph(words, "seen") if words else ""
-            told = f"<figcaption>{unbroken(title)}</figcaption>{below}"
-            return f"<figure id='figure-{number}'>{drawn}{told}</figure>"
-        case TablePart():
-            title = said("Table {number}. {caption}", number=next(tables), caption=part.caption)
-            table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"
-            notes = "".join(paragraph(note, "note") for note in part.notes)
-            return f"{_KEPT if part.count <= _ROWS_KEPT else _LONG}{table}{notes}</div>"
-        case Beside(parts, across, shares):
-            columns = (one if isinstance(one, tuple) else (one,) for one in parts)
-            inside = ("\n".join(_written(one, figures, tables) for one in column) for column in columns)
-            widths = " ".join(f"{share}fr" for share in shares) or f"repeat({across}, 1fr)"
-            grid = f"<div class='beside' style='grid-template-columns: {widths}'>"
-            return "\n".join([grid, *(f"<div>{one}</div>" for one in inside), "</div>"])
+def _written(part: Part, numbers: Numbers) -> str:
+    return part if isinstance(part, str) else part.markup(numbers)
 
 
 def heading(level: int, text: str) -> str:
@@ -255,22 +262,20 @@ def table(caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> 
     return TablePart(caption, f"<thead><tr>{head}</tr></thead><tbody>{lines}</tbody>", len(rows))
 
 
-def sheet_parts(
-    sections: Mapping[str, Sequence[Finding]], place: str, speeds: Sequence[str]
-) -> Iterator[TablePart]:
+def sheet_parts(sheet: Sheet, length_unit: str, place: str, speeds: Sequence[str]) -> Iterator[TablePart]:
     """Yield the tables of every quantity at one instant, where the input is at a place."""
     heads = "".join(f"<th class='n' scope='col'>{escape(speed)}</th>" for speed in speeds)
     quantity, symbol_, unit = (
         f"<th scope='col'>{one}</th>" for one in (said("quantity"), said("symbol"), said("unit"))
     )
     head = f"<thead><tr>{quantity}{symbol_}{heads}{unit}</tr></thead>"
-    for title, rows in sections.items():
+    for title, rows in sheet.items():
         if rows:
             lines = "".join(
                 # without what the heading says
-                f"<tr><th scope='row'>{escape(row.quantity.measure)}</th>"
-                f"<td>{symbol(row.quantity.symbol)}</td>{_numbers(row.values)}<td>{escape(row.unit)}</td></tr>"
-                for row in rows
+                f"<tr><th scope='row'>{escape(one.measure)}</th><td>{symbol(one.symbol)}</td>"
+                f"{_numbers(values)}<td>{escape(one.shown_unit(length_unit))}</td></tr>"
+                for one, values in rows
             )
             yield TablePart(
                 said("{title}, {place}", title=title, place=place), f"{head}<tbody>{lines}</tbody>", len(rows)

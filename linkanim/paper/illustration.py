@@ -16,7 +16,8 @@ from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
 from linkanim.picture.purpose import USUAL_SIZE
-from linkanim.picture.raster import Colour, offscreen
+from linkanim.picture.raster import Colour, Layer, offscreen
+from linkanim.picture.shapes import disc
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type, letters
 from linkanim.picture.theme import on_paper, theme_of
@@ -77,22 +78,40 @@ class DrawnPage(ABC):
 
 
 class LegendEntry(NamedTuple):
-    """How a curve is drawn, and what it shows; widths and dashes in the pen's lines and in pixels."""
+    """A curve's words, how it is drawn, or a dot; width and dashes in the pen's lines and in pixels."""
 
     words: str
     colour: Colour
     width: float = 1.4
     dashes: tuple[float, ...] = ()
+    dotted: bool = False
+
+    def wide(self, pen: Pen, apart: float = 1.5) -> float:
+        """Return how far it is to the next, which is `apart` behind its words, in heights of their text."""
+        return (_SWATCH + 0.5 + apart) * pen.small + pen.type.width(self.words, pen.small)
+
+    def items(self, x: float, y: float, pen: Pen) -> Iterator[Item]:
+        """Yield the curve's swatch and its words, from the upper left corner on."""
+        start = complex(x, y + 0.5 * pen.small)
+        if self.dotted:
+            yield Layer(self.colour, [start + _SWATCH / 2 * pen.small + disc(1.8 * pen.line)])
+        else:
+            line = start + np.array([0, _SWATCH * pen.small])
+            yield line_layer([line], self.colour, self.width * pen.line, self.dashes)
+        yield Caption(self.words, (x + (_SWATCH + 0.5) * pen.small, y), pen.small, pen.theme.ink)
 
 
-def legend(x: float, y: float, strokes: Iterable[LegendEntry], pen: Pen) -> Iterator[Item]:
+_SWATCH = 2.6
+"""How long a curve's swatch is, in heights of its words."""
+
+
+def legend(
+    x: float, y: float, entries: Iterable[LegendEntry], pen: Pen, apart: float = 1.5
+) -> Iterator[Item]:
     """Yield which curve is which in one row, from its upper left corner on."""
-    for one in strokes:
-        begin = complex(x, y + 0.5 * pen.small)
-        line = np.array([begin, begin + 2.6 * pen.small])
-        yield line_layer([line], one.colour, one.width * pen.line, one.dashes)
-        yield Caption(one.words, (x + 3.1 * pen.small, y), pen.small, pen.theme.ink)
-        x += 4.6 * pen.small + pen.type.width(one.words, pen.small)
+    for one in entries:
+        yield from one.items(x, y, pen)
+        x += one.wide(pen, apart)
 
 
 class Illustration(NamedTuple):

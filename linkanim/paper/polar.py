@@ -16,7 +16,7 @@ from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.mechanics.quantities import Quantity, input_symbol
 from linkanim.paper.curves import Pace
-from linkanim.paper.illustration import DrawnPage
+from linkanim.paper.illustration import DrawnPage, LegendEntry
 from linkanim.picture.chart import Plot, axes, dot, line_layer, x_title
 from linkanim.picture.items import Caption, Halo, Item
 from linkanim.picture.quantities import Axis, driven_words, linear, quantity, range_around
@@ -44,6 +44,16 @@ class _Head(NamedTuple):
     pace: Pace
     x: Floats
     y: Floats
+
+    @property
+    def bounded(self) -> NDArray[np.bool_]:
+        """Which of its points are."""
+        return np.isfinite(self.x) & np.isfinite(self.y)
+
+    def within(self, plot: Plot) -> NDArray[np.bool_]:
+        """Return which of its points lie in a plot."""
+        x, y = plot.x, plot.y
+        return (self.x >= x.low) & (self.x <= x.high) & (self.y >= y.low) & (self.y <= y.high)
 
 
 @frozen
@@ -132,10 +142,10 @@ class PolarPage(DrawnPage):
     def _plot(self, below: Rect) -> Plot:
         """Return the plot, with one scale across and up and the origin in it."""
         pen = self.pen
-        ranges = []
+        ranges, bounded = [], np.concatenate([head.bounded for head in self.heads])
         for part in ("x", "y"):
             values = np.concatenate([getattr(head, part) for head in self.heads])
-            low, high = range_around(np.where(self._bounded, values, np.inf), _ROOM)
+            low, high = range_around(np.where(bounded, values, np.inf), _ROOM)
             ranges.append((min(low, -_ROOM * high), max(high, -_ROOM * low)))
         left, foot = 4.5 * pen.small, 3.0 * pen.small
         area = Rect(
@@ -156,11 +166,6 @@ class PolarPage(DrawnPage):
         x: Axis = linear(*curves[0], most=most)
         return Plot(area, x, linear(*curves[1], most=max(most * area.height / area.width, 2).__ceil__()))
 
-    @property
-    def _bounded(self) -> NDArray[np.bool_]:
-        rows = [np.isfinite(head.x) & np.isfinite(head.y) for head in self.heads]
-        return np.concatenate(rows)
-
     def _colour(self, n: int) -> Colour:
         theme = self.pen.theme
         return (theme.force, theme.velocity, theme.acceleration, *theme.traces[1:])[n % 5]
@@ -169,7 +174,7 @@ class PolarPage(DrawnPage):
         """Yield a curve, dots along it with angles, and an arrow to where the vector is largest."""
         pen, colour = self.pen, self._colour(n)
         places = plot.pixels(head.x, head.y)
-        inside = np.isfinite(head.x) & np.isfinite(head.y) & _within(plot, head)
+        inside = head.bounded & head.within(plot)
         runs = np.split(places, np.flatnonzero(~inside))
         lines = [run[1:] if k else run for k, run in enumerate(runs)]
         yield line_layer([line for line in lines if len(line) > 1], colour, 1.2 * pen.line, _DASHES[n % 4])
@@ -225,16 +230,6 @@ class PolarPage(DrawnPage):
         pen = self.pen
         top = plot.area.bottom + 3.0 * pen.small
         for n, head in enumerate(self.heads):
-            y = top + 1.5 * n * pen.small
-            start = complex(below.x, y + 0.5 * pen.small)
-            yield line_layer(
-                [np.array([start, start + 2.6 * pen.small])], self._colour(n), 1.2 * pen.line, _DASHES[n % 4]
-            )
             words = said("{label}: {words}", label=head.pace.words, words=self._largest(head)[1])
-            yield Caption(words, (below.x + 3.1 * pen.small, y), pen.small, pen.theme.ink)
-
-
-def _within(plot: Plot, head: _Head) -> NDArray[np.bool_]:
-    """Return which points of a curve lie within a plot."""
-    x, y = plot.x, plot.y
-    return (head.x >= x.low) & (head.x <= x.high) & (head.y >= y.low) & (head.y <= y.high)
+            entry = LegendEntry(words, self._colour(n), 1.2, _DASHES[n % 4])
+            yield from entry.items(below.x, top + 1.5 * n * pen.small, pen)

@@ -17,18 +17,18 @@ from linkanim.explain.documents import HTML, chapters, derivation
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
+from linkanim.intake import NumberTable
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper import html
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import MeasuredCurve, MeasuredTable, Pace, compared, curves_of, within_a_turn
+from linkanim.paper.curves import MeasuredCurve, Pace, compared, curves_of, within_a_turn
 from linkanim.paper.figure import DIMENSIONED, Figured
 from linkanim.paper.findings import (
+    Chart,
     Instant,
-    PlannedChart,
     Values,
     charted,
     paces_of,
-    place_of,
     sheet,
     table,
     topics,
@@ -106,7 +106,7 @@ class Report:
     paces: tuple[Pace, ...]
     digits: int = 4
     every: bool = False
-    measured: Mapping[str, MeasuredTable] = field(default_factory=dict)
+    measured: Mapping[str, NumberTable] = field(default_factory=dict)
     label: str = "measured"
     published: tuple[PublishedTable, ...] = ()
     polygon_pace: Pace | None = None
@@ -174,13 +174,13 @@ class Report:
         by_topic = topics(self._values, self.paces).items()
         return {title: [*self._in_topic(charts)] for title, charts in by_topic}
 
-    def _in_topic(self, charts: list[PlannedChart]) -> Iterator[DrawnChart]:
+    def _in_topic(self, charts: list[Chart]) -> Iterator[DrawnChart]:
         """Yield the charts of a topic; of an odd number, one with the most curves is as broad as the page.
 
         It is sought among those with an even number before them, so that the others stand in pairs.
         """
         pairs = charts[:: 2 if len(charts) % 2 else len(charts)]
-        broad = max(reversed(pairs), key=lambda chart: len(chart.tokens)) if len(charts) % 2 else None
+        broad = max(reversed(pairs), key=lambda chart: len(chart[0])) if len(charts) % 2 else None
         for chart in charts:
             yield self._drawn(*chart, broad=chart is broad)
 
@@ -251,14 +251,10 @@ class Report:
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
-                place, findings = (
-                    place_of(self.scene, instant),
-                    sheet(self._values, instant, self.paces, self.digits),
-                )
-                yield (
-                    said("Every quantity at {place}", place=place),
-                    html.sheet_parts(findings, place, speeds),
-                )
+                place, unit = instant.place(self.scene), self.scene.length_unit
+                values = sheet(self._values, instant, self.paces, self.digits)
+                title = said("Every quantity at {place}", place=place)
+                yield title, html.sheet_parts(values, unit, place, speeds)
             title = said(
                 "Every quantity over one period, at {speeds}", speeds=said_as("list", ", ").join(speeds)
             )
@@ -407,7 +403,7 @@ class Report:
                 off = 100 * (value / per - ours) / abs(ours)
                 row += [significant(value / per, _PRINTED), rounded(off, 2)]
             rows.append(row)
-        place = place_of(scene, Instant(float(motion.phase), ""))
+        place = Instant(float(motion.phase)).place(scene)
         return html.table(f"{printed.source}: {place}, {printed.speed:g} rad/s", heads, rows)
 
     def _poses(self) -> Iterator[Part]:
@@ -418,7 +414,7 @@ class Report:
         figures = (
             FigurePart(
                 Figured(self.scene, size, look, instant.phase).document(),
-                said("The mechanism at {place}", place=place_of(self.scene, instant)),
+                said("The mechanism at {place}", place=instant.place(self.scene)),
                 _HIGHEST_BESIDE,
             )
             for instant in self.instants
@@ -439,7 +435,7 @@ class Report:
             shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
             title = said(
                 "Velocity and acceleration polygon at {place}, {speed}",
-                place=place_of(self.scene, instant),
+                place=instant.place(self.scene),
                 speed=pace.words,
             )
             yield FigurePart(polygons_svg(shown), title)

@@ -57,6 +57,17 @@ class NamedPlace(NamedTuple):
     places: list[complex]
     colour: Colour
 
+    def alternatives(self, pen: Pen) -> Alternatives:
+        """Return its places, each as much worse as it stands further back."""
+        size = pen.type.width(self.text, pen.text, strong=True), pen.text
+        return Alternatives(size, np.array([self.places]), np.arange(float(len(self.places))), most=1.0)
+
+    def caption(self, n: int, pen: Pen) -> Caption:
+        """Return it at its n-th place."""
+        at, halo = self.places[n], Halo(pen.theme.background, 0.2 * pen.text)
+        top = at.real, at.imag - pen.text / 2
+        return Caption(self.text, top, pen.text, self.colour, "centre", strong=True, halo=halo)
+
 
 def vectors_svg(solution: Solution) -> str:
     """Return the vector loops as SVG: each vector once, with its name, and its joints with theirs."""
@@ -197,20 +208,9 @@ def _drawn(solution: Solution, picture: Picture) -> Iterator[Group]:
 
 def captions(names: list[NamedPlace], ground: Obstacles, pen: Pen) -> Iterator[Caption]:
     """Yield names placed where they cover nothing, else as little as possible."""
-    labels = [
-        Alternatives(
-            (pen.type.width(one.text, pen.text, strong=True), pen.text),
-            np.array([one.places]),
-            np.arange(float(len(one.places))),
-            most=1.0,
-        )
-        for one in names
-    ]
-    halo = Halo(pen.theme.background, 0.2 * pen.text)
-    for one, n in zip(names, chosen(labels, ground), strict=True):
-        at = one.places[n or 0]
-        top = at.real, at.imag - pen.text / 2
-        yield Caption(one.text, top, pen.text, one.colour, "centre", strong=True, halo=halo)
+    which = chosen([one.alternatives(pen) for one in names], ground)
+    for one, n in zip(names, which, strict=True):
+        yield one.caption(n or 0, pen)
 
 
 def name_places(begin: complex, end: complex, text: float) -> list[complex]:

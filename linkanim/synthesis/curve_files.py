@@ -283,8 +283,8 @@ def read_curve(path: Path) -> CurveFile:
     for line, numbers in rows:
         if len(numbers) > _MOST_COLUMNS:
             raise BadInput(f"{where}: line {line} has {len(numbers)} columns; give x, y and at most an angle")
-    angles = [row.numbers[2] for row in rows if len(row.numbers) > 2]
+    angles = [numbers[2] for _, numbers in rows if len(numbers) > 2]
     if angles and len(angles) < len(rows):
         raise BadInput(f"{where}: {len(angles)} of {len(rows)} rows have an angle; give it to all, or none")
-    points = np.array([complex(*row.numbers[:2]) for row in rows])
+    points = np.array([complex(*numbers[:2]) for _, numbers in rows])
     return CurveFile(points, np.radians(angles) if angles else None)

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from linkanim.intake import NumberRow
+from linkanim.intake import NumberTable
 from linkanim.paper.chart import Page, _apart, _by_unit
-from linkanim.paper.curves import Curve, MeasuredTable, Pace, comparison, curves_of, extremes
+from linkanim.paper.curves import Curve, Pace, comparison, curves_of, extremes
 from linkanim.paper.findings import Values, topics
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
@@ -222,10 +222,10 @@ def test_no_word_lies_on_a_measured_point(scene: str) -> None:
     curves = curves_of(found, ("transmission_angle",), (Pace(found.linkage.drive.speed, ""),))
     (curve,) = curves.curves
     rows = tuple(
-        NumberRow(n, (float(x), float(value)))
+        (n, (float(x), float(value)))
         for n, (x, value) in enumerate(zip(curve.x[:-1:12], curve.values[:-1:12], strict=True))
     )
-    page = Page(curves, size=(960, 540), measured=comparison(curves, MeasuredTable("t", "", rows), "t"))
+    page = Page(curves, size=(960, 540), measured=comparison(curves, NumberTable("t", (), rows), "t"))
     items = list(page.items())
     inner = [item for item in items if isinstance(item, Layer)][-1]
     dots = [complex(loop.mean()) for loop in inner.loops]

@@ -11,9 +11,9 @@ import numpy as np
 import pygame
 import pytest
 
-from linkanim.intake import NumberRow
+from linkanim.intake import NumberTable
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import MeasuredTable, Pace, comparison, curves_of
+from linkanim.paper.curves import Pace, comparison, curves_of
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.raster import Layer, offscreen
@@ -289,11 +289,11 @@ def test_groups_of_one_name_have_ids_of_their_own() -> None:
     assert [group.get("id") for group in document.iter(f"{SVG}g")] == ["a_b", "a_b-2", "c", "a_b-3"]
 
 
-def _table(first: np.ndarray, values: np.ndarray) -> MeasuredTable:
+def _table(first: np.ndarray, values: np.ndarray) -> NumberTable:
     rows = [
-        NumberRow(n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)
+        (n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)
     ]
-    return MeasuredTable("t.csv", "", tuple(rows))
+    return NumberTable("t.csv", (), tuple(rows))
 
 
 def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> None:

@@ -28,7 +28,6 @@ from linkanim.paper.findings import (
     charted,
     instants_at,
     paces_of,
-    place_of,
     sheet,
     usual_instants,
     value_tables,
@@ -352,7 +351,7 @@ def test_the_tables_of_the_press_say_what_the_printed_report_does() -> None:
 
 def test_more_speeds_than_fit_go_on_in_a_further_table() -> None:
     paces = tuple(Pace(float(n), f"{n} rad/s") for n in range(1, 7))
-    tables = list(value_tables(Values(load("crank-rocker")), (Instant(0.0, ""),), paces, 4))
+    tables = list(value_tables(Values(load("crank-rocker")), (Instant(0.0),), paces, 4))
     links = [one for one in tables if one.title == "Links"]
     assert [len(one.columns) for one in links] == [3 + 2 * 4, 2 * 2]
 
@@ -377,16 +376,16 @@ def test_tables_say_what_is_solved_at_every_speed(name: str) -> None:
     numbers = {token: one for token, one in register(scene.linkage).items() if len(one.columns) == 1}
     for instant in usual_instants(scene):
         sections = sheet(values, instant, PACES, 7)
-        rows = {row.quantity.token: row for part in sections.values() for row in part}
+        rows = {one.token: told for part in sections.values() for one, told in part}
         assert rows.keys() == numbers.keys()
         for pace, n in zip(PACES, range(3), strict=True):
             motion = scene.solve(phase=instant.phase, speed=pace.speed)
-            for token, row in rows.items():
+            for token, told in rows.items():
                 value = float(numbers[token].shown(motion))
-                assert digits.match(row.values[n])
-                assert row.values[n] in (rounded(value, 7), "0", "∞", "−∞"), token
+                assert digits.match(told[n])
+                assert told[n] in (rounded(value, 7), "0", "∞", "−∞"), token
                 # nothing is so small, or so large, that it is a rounding error
-                assert abs(value) < 1e-5 or row.values[n] != "0", token
+                assert abs(value) < 1e-5 or told[n] != "0", token
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
@@ -409,15 +408,15 @@ def test_a_slider_s_extremes_are_told_by_themselves() -> None:
     scene = load("press")
     start, high, low = usual_instants(scene)
     assert start.phase == 0.0
-    assert [place_of(scene, instant) for instant in (start, Instant(1.5, ""))] == [
+    assert [instant.place(scene) for instant in (start, Instant(1.5))] == [
         "θ₂ = 0.00° (start)",
         "θ₂ = 85.94°",
     ]
-    second_turn = Instant(math.radians(447), "")
-    assert place_of(load("kite"), second_turn) == "θ₂ = 147.00°"
+    second_turn = Instant(math.radians(447))
+    assert second_turn.place(load("kite")) == "θ₂ = 147.00°"
     piston = load("driven-piston")
     travel = float(piston.solve(phase=1.0).coordinate)
-    assert place_of(piston, Instant(1.0, "then")) == f"s = {travel:.2f} mm (then)"
+    assert Instant(1.0, "then").place(piston) == f"s = {travel:.2f} mm (then)"
     for instant, degrees in ((high, 71.0), (low, 316.5)):
         assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
         assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-12)

@@ -70,7 +70,7 @@ def _table(path: Path) -> list[tuple[float, float]]:
     for line, numbers in rows:
         if len(numbers) != 2:
             raise BadInput(f"{where}: line {line} has {len(numbers)} columns; give x and y")
-    return [(row.numbers[0], row.numbers[1]) for row in rows]
+    return [(numbers[0], numbers[1]) for _, numbers in rows]
 
 
 def _pairs(text: str) -> list[tuple[float, float]]:

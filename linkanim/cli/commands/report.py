@@ -9,8 +9,9 @@ from linkanim.bounds import MOST_CHARTED
 from linkanim.cli.commands.chart import paces
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
+from linkanim.intake import NumberTable
 from linkanim.manifest import FileSet, replacing
-from linkanim.paper.curves import MeasuredTable, Pace, read_tables
+from linkanim.paper.curves import Pace, read_tables
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
 from linkanim.scenes import load
@@ -71,7 +72,7 @@ def _polygon_pace(options: Namespace) -> Pace | None:
     return Pace(speed, words, options.acceleration)
 
 
-def _measured(options: Namespace) -> dict[str, MeasuredTable]:
+def _measured(options: Namespace) -> dict[str, NumberTable]:
     """Return the columns of `--data` by their quantities; none without it."""
     if options.data is None:
         if options.label is not None:
