@@ -17,10 +17,10 @@ from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import cut, segments, stroke
 from linkanim.picture.text import subscripted
 from linkanim.words import said
-from linkanim.workshop.made import MadeLinkage, MadePin
-from linkanim.workshop.nesting import FOOT, MARGIN, Laid, Oversize, nested
-from linkanim.workshop.parts import Plate
-from linkanim.workshop.shapes import Outline, arc, box, moved, polygon, rounded, upright
+from linkanim.workshop.made import MadeLinkage
+from linkanim.workshop.nesting import FOOT, MARGIN, nested
+from linkanim.workshop.parts import Pin, Plate
+from linkanim.workshop.shapes import Outline, arc, box, moved, polygon, rounded, sides, upright
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -59,13 +59,18 @@ class FlatPart(NamedTuple):
     room: float = math.inf
     letters: tuple[tuple[str, complex], ...] = ()
 
+    def words(self, size: float, letter: float) -> Iterator[tuple[str, complex, float]]:
+        """Yield its label, at most `size` high, and its letters, `letter` high: text, place, height."""
+        if self.label:
+            yield self.label, self.at, min(size, self.room)
+        for text, place in self.letters:
+            yield text, place, letter
+
 
 def _letters(made: MadeLinkage, plate: Plate, label: str) -> Iterator[tuple[str, complex]]:
     """Yield the joints of a plate's holes, each on the side of its hole that has most room, off the label."""
     size, wide = _LETTERED * made.sizes.bar, 0.5 * _LETTER * len(label) * _LETTERED * made.sizes.bar
-    places = [(hole.joint, hole.at, hole.diameter / 2) for hole in plate.holes if hole.joint]
-    places += [(slot.joint, slot.begin, slot.radius) for slot in plate.slots]
-    for joint, at, radius in places:
+    for at, _, radius, joint in (one for one in plate.holes + plate.slots if one.joint):
         away = plate.clearest - at
         turned = away / abs(away) if abs(away) > radius else 1 + 0j
         if radius < abs(away) < radius + 1.8 * size + wide:
@@ -83,10 +88,10 @@ def flat_parts(made: MadeLinkage) -> list[FlatPart]:
         edges, letters = (plate.outline(grown), tuple(plate.cuts(grown))), tuple(_letters(made, plate, label))
         parts.append(FlatPart(label, plate.clearest, *edges, letters=letters))
     for pin in made.pins:
-        for ring in pin.spacers:
+        for layer, diameter in pin.spacers:
             hole = rounded([0j], made.sizes.hole / 2 - grown)
-            edge = rounded([0j], ring.diameter / 2 + grown)
-            label, outer, inner = f"{pin.name} {ring.layer}", ring.diameter / 2, made.sizes.hole / 2
+            edge = rounded([0j], diameter / 2 + grown)
+            label, outer, inner = f"{pin.name} {layer}", diameter / 2, made.sizes.hole / 2
             room = _room_in_ring(outer, inner, _LETTER * len(label))
             parts.append(FlatPart(label, -0.5j * (outer + inner), edge, (hole,), room))
     return parts
@@ -101,33 +106,24 @@ def _room_in_ring(outer: float, inner: float, wide: float) -> float:
     return min(within, 0.8 * (outer - inner))
 
 
-class _Sheets(NamedTuple):
-    """Parts on sheets side by side: each part's place, the number of sheets, and the step to the next."""
+def _sheets(made: MadeLinkage) -> tuple[list[tuple[FlatPart, complex, complex]], int, float]:
+    """Return all flat parts on sheets side by side: each with its place and its frame's direction.
 
-    parts: list[FlatPart]
-    laid: list[Laid]
-    many: int
-    step: float
-
-    def places(self) -> Iterator[tuple[FlatPart, complex, complex]]:
-        """Yield each part, with the place of its frame's origin and the frame's direction."""
-        for part, laid in zip(self.parts, self.laid, strict=True):
-            yield part, laid.at + complex(_BETWEEN + laid.sheet * self.step, _BETWEEN), laid.turn
-
-
-def _sheets(made: MadeLinkage) -> _Sheets:
-    """Return all flat parts on sheets; BadInput for one that no sheet holds."""
-    wide, high = made.sheet
-    parts, laid = flat_parts(made), []
-    for one in nested([part.edge for part in parts], (wide - 2 * _BETWEEN, high - 2 * _BETWEEN), _BETWEEN):
-        if isinstance(one, Oversize):
+    Also the number of sheets, and the step from one to the next. BadInput for a part that no sheet holds.
+    """
+    (wide, high), placed, last = made.sheet, [], 0
+    parts, step = flat_parts(made), made.sheet[0] + 20.0
+    laid = nested([part.edge for part in parts], (wide - 2 * _BETWEEN, high - 2 * _BETWEEN), _BETWEEN)
+    for part, one in zip(parts, laid, strict=True):
+        if one is None:
+            long, broad = sides(part.edge)
             raise BadInput(
-                f"{parts[one.part].label} is {one.long:.0f} x {one.wide:.0f} mm, which a sheet of {wide:g} x "
-                f"{high:g} mm does not hold; take a larger one (--sheet), or make everything smaller "
-                "(--fit A4)"
+                f"{part.label} is {long:.0f} x {broad:.0f} mm, which a sheet of {wide:g} x {high:g} mm does "
+                "not hold; take a larger one (--sheet), or make everything smaller (--fit A4)"
             )
-        laid.append(one)
-    return _Sheets(parts, laid, max(one.sheet for one in laid) + 1, wide + 20.0)
+        placed.append((part, one.at + complex(_BETWEEN + one.sheet * step, _BETWEEN), one.turn))
+        last = max(last, one.sheet)
+    return placed, last + 1, step
 
 
 def svg(made: MadeLinkage) -> str:
@@ -135,25 +131,22 @@ def svg(made: MadeLinkage) -> str:
 
     Sheets lie side by side, their edges grey. BadInput for a part that is larger than a sheet.
     """
-    sheets, (wide, high) = _sheets(made), made.sheet
-    width = sheets.step * (sheets.many - 1) + wide
+    (placed, many, step), (wide, high) = _sheets(made), made.sheet
+    width = step * (many - 1) + wide
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}mm" height="{high:g}mm" '
         f'viewBox="0 0 {width:g} {high:g}" fill="none" stroke-width="0.1">',
         f"<title>{escape(made.scene.title)}</title>",
     ]
     lines += [
-        f'<rect x="{n * sheets.step:g}" y="0" width="{wide:g}" height="{high:g}" stroke="#999"/>'
-        for n in range(sheets.many)
+        f'<rect x="{n * step:g}" y="0" width="{wide:g}" height="{high:g}" stroke="#999"/>'
+        for n in range(many)
     ]
-    for part, at, turn in sheets.places():
+    for part, at, turn in placed:
         outlines = [moved(outline, at, turn) for outline in (part.edge, *part.holes)]
         lines.append(f'<path stroke="#f00" d="{"".join(_path(outline, high) for outline in outlines)}"/>')
         lean = -math.degrees(math.atan2(turn.imag, turn.real))
-        size = min(0.35 * made.sizes.bar, part.room)
-        words = [(part.label, part.at, size)] if part.label else []
-        words += [(text, place, _LETTERED * made.sizes.bar) for text, place in part.letters]
-        for text, own, high_ in words:
+        for text, own, high_ in part.words(0.35 * made.sizes.bar, _LETTERED * made.sizes.bar):
             place = at + turn * own
             how = f'transform="translate({place.real:.3f} {high - place.imag:.3f}) rotate({lean:.3f})"'
             lines.append(
@@ -196,16 +189,16 @@ def dxf(made: MadeLinkage) -> str:
     from ezdxf.enums import TextEntityAlignment
     from ezdxf.filemanagement import new
 
-    sheets, (wide, high) = _sheets(made), made.sheet
+    (placed, many, step), (wide, high) = _sheets(made), made.sheet
     drawing = new("R2010", units=units.MM)
     for name, colour in (("CUT", 1), ("ENGRAVE", 5), ("SHEET", 8)):
         drawing.layers.add(name, color=colour)
     space = drawing.modelspace()
-    for n in range(sheets.many):
-        left = n * sheets.step
+    for n in range(many):
+        left = n * step
         corners = [(left, 0), (left + wide, 0), (left + wide, high), (left, high)]
         space.add_lwpolyline(corners, close=True, dxfattribs={"layer": "SHEET"})
-    for part, at, turn in sheets.places():
+    for part, at, turn in placed:
         for outline in (part.edge, *part.holes):
             lying = moved(outline, at, turn)
             if len(lying) == 2 and lying[0][1] == lying[1][1] == 1.0:
@@ -216,9 +209,7 @@ def dxf(made: MadeLinkage) -> str:
                 points = [(corner.real, corner.imag, bulge) for corner, bulge in lying]
                 space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "CUT"})
         lean = math.degrees(math.atan2(turn.imag, turn.real))
-        words = [(part.label, part.at, min(0.3 * made.sizes.bar, part.room))] if part.label else []
-        words += [(text, place, _LETTERED * made.sizes.bar) for text, place in part.letters]
-        for text_shown, own, size in words:
+        for text_shown, own, size in part.words(0.3 * made.sizes.bar, _LETTERED * made.sizes.bar):
             place = at + turn * own
             text = space.add_text(text_shown, height=size, rotation=lean, dxfattribs={"layer": "ENGRAVE"})
             text.set_placement((place.real, place.imag), align=TextEntityAlignment.MIDDLE_CENTER)
@@ -236,9 +227,8 @@ def paper(made: MadeLinkage) -> bytes:
     parts, (wide, high) = flat_parts(made), made.sheet
     room = wide - 2 * MARGIN, high - 2 * MARGIN - FOOT
     laid = nested([part.edge for part in parts], room, _BETWEEN)
-    tiled = [_Tiles.of(parts[one.part], room) for one in laid if isinstance(one, Oversize)]
-    whole = [one for one in laid if isinstance(one, Laid)]
-    count = max((one.sheet + 1 for one in whole), default=0)
+    tiled = [_Tiles.of(part, room) for part, one in zip(parts, laid, strict=True) if one is None]
+    count = max((one.sheet + 1 for one in laid if one), default=0)
     total = count + sum(tiles.across * tiles.up for tiles in tiled)
     if total > _MOST_PAGES:
         raise BadInput(
@@ -246,8 +236,9 @@ def paper(made: MadeLinkage) -> bytes:
             "or take larger paper (--sheet 841x1189)"
         )
     drawn: list[list[Item]] = [[] for _ in range(count)]
-    for one in whole:
-        drawn[one.sheet] += _drawn(made, parts[one.part], one.at, one.turn)
+    for part, one in zip(parts, laid, strict=True):
+        if one:
+            drawn[one.sheet] += _drawn(made, part, one.at, one.turn)
     for tiles in tiled:
         drawn += tiles.pages(made)
     framed = (
@@ -432,10 +423,10 @@ def bodies(made: MadeLinkage) -> Iterator[tuple[str, bytes]]:
             body += _disc(0j, head, sunk, 0.0)
         caps |= _end_plate(made, pin, pin.high) is not None
         yield f"pin-{pin.name}", _stl(body)
-        for ring in pin.spacers:
+        for layer, diameter in pin.spacers:
             yield (
-                f"ring-{pin.name}-layer-{ring.layer}",
-                _stl(_disc(0j, ring.diameter, thick, 0.0) - _disc(0j, sizes.hole, thick + 2, -1.0)),
+                f"ring-{pin.name}-layer-{layer}",
+                _stl(_disc(0j, diameter, thick, 0.0) - _disc(0j, sizes.hole, thick + 2, -1.0)),
             )
     if caps:
         yield "cap", _stl(_disc(0j, head, sunk, 0.0) - _disc(0j, sizes.snug, sunk + 2, -1.0))
@@ -446,7 +437,7 @@ def _head(made: MadeLinkage) -> float:
     return made.sizes.hole + made.sizes.wall / 2
 
 
-def _end_plate(made: MadeLinkage, pin: MadePin, layer: int) -> int | None:
+def _end_plate(made: MadeLinkage, pin: Pin, layer: int) -> int | None:
     """Return the plate in a layer that holds a pin's head or cap; None for a slot, and for a dowel."""
     if pin.stuck:
         return None

@@ -18,7 +18,8 @@ from linkanim.picture.text import letters, subscripted
 from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.words import name_said, said
-from linkanim.workshop.made import MadeLinkage, MadePin
+from linkanim.workshop.made import MadeLinkage
+from linkanim.workshop.parts import Pin
 from linkanim.workshop.shapes import polygon
 
 _CHORD = 0.05
@@ -70,7 +71,7 @@ class Drawn:
         pale = self.new is not None and number not in self.new
         return mixed(colour, theme.background, 0.72 if pale and layer else 0.0)
 
-    def _pins(self) -> list[tuple[MadePin, complex]]:
+    def _pins(self) -> list[tuple[Pin, complex]]:
         """Return the pins of the shown plates, and their places, in mm."""
         shown = set(self._order())
         places = zip(self.made.pins, self.made.pinned(self.phase), strict=True)
@@ -84,7 +85,7 @@ class Drawn:
             at, turn = placed[number]
             for hole in self.made.plates[number].holes:
                 if hole.joint and hole.joint not in pinned:
-                    open_pins.append((hole.joint, self.made.layer[number], at + turn * hole.at))
+                    open_pins.append((hole.joint, self.made.layer[number], at + turn * hole.begin))
         return open_pins
 
     def plan(self) -> Iterator[Item]:
@@ -244,9 +245,9 @@ class Drawn:
             )
             yield Layer(self.theme.outline, [box], 0.9)
             taken.append(_around(box))
-            for ring in pin.spacers:
-                reach = max(0.5 * ring.diameter * scale, half + 2)
-                corners = _corners(place - reach, place + reach, y(ring.layer + thick), y(ring.layer))
+            for layer, diameter in pin.spacers:
+                reach = max(0.5 * diameter * scale, half + 2)
+                corners = _corners(place - reach, place + reach, y(layer + thick), y(layer))
                 yield Layer(self.theme.metal, [np.array([complex(a, b) for a, b in corners])], 0.8)
             if not pin.stuck:
                 beside = (0, half + 12, -half - 12, half + 22, -half - 22)

@@ -18,7 +18,7 @@ from itertools import combinations
 from typing import NamedTuple
 
 from linkanim.workshop.parts import Kit
-from linkanim.workshop.sweep import Cycle, MovingPiece, Nearness
+from linkanim.workshop.sweep import Cycle
 
 
 class NodeSet(NamedTuple):
@@ -27,11 +27,11 @@ class NodeSet(NamedTuple):
     nodes: tuple[int, ...]
     bits: int
 
-
-def node_set(nodes: Iterable[int]) -> NodeSet:
-    """Return nodes as a set."""
-    own = tuple(sorted(nodes))
-    return NodeSet(own, sum(1 << node for node in own))
+    @classmethod
+    def of(cls, nodes: Iterable[int]) -> NodeSet:
+        """Return nodes as a set."""
+        own = tuple(sorted(nodes))
+        return cls(own, sum(1 << node for node in own))
 
 
 Choice = tuple[NodeSet, NodeSet]
@@ -64,14 +64,6 @@ class GivenUp(Exception):
     """A search took more work than it may."""
 
 
-class Clash(NamedTuple):
-    """Two parts that would meet in one layer, by name, and the phase (rad) at which they would."""
-
-    one: str
-    other: str
-    phase: float
-
-
 class Stack(NamedTuple):
     """The layer of each plate, and the pins, by number, that hang from a bridge above all layers.
 
@@ -89,10 +81,11 @@ class Stack(NamedTuple):
 class Unstackable(NamedTuple):
     """The clashes to blame, and the fixed pins that a bridge would have to carry; none if no bridge helps.
 
+    A clash is two parts that would meet in one layer, by name, and the phase (rad) at which they would.
     Without clashes the search was given up.
     """
 
-    clashes: tuple[Clash, ...]
+    clashes: tuple[tuple[str, str, float], ...]
     bridged: tuple[str, ...]
 
 
@@ -104,7 +97,7 @@ def stacked(
     Pins are as wide as their `hole`, and parts of one layer pass at a distance of at least `gap` (mm). With a
     `bridge`, fixed pins may hang from it: as few as suffice.
     """
-    near = _near(cycle, kit, hole, gap)
+    near = kit.near(cycle, hole, gap)
     clashes = [pair for pair, how in near.items() if not how.apart]
     try:
         work.spend(len(near))
@@ -113,9 +106,9 @@ def stacked(
         return Unstackable((), ())
     if levels is None or (hanging and not bridge):
         blamed = tuple(_to_blame(kit, clashes, work))
-        told = tuple(_clash(kit, pair, near[pair].phase) for pair in blamed)
+        told = tuple((kit.name(one), kit.name(other), near[one, other].phase) for one, other in blamed)
         return Unstackable(told, tuple(kit.pins[n].name for n in hanging))
-    through = _nodes(kit, hanging)
+    through = kit.nodes(hanging)
     levels, least = _fewest(levels, choices, bridged=bool(hanging))
     levels = _compact(levels, choices, through[len(kit.plates) :], bridged=bool(hanging))
     layers = tuple(levels[through[plate][0]] for plate in range(len(kit.plates)))
@@ -125,11 +118,11 @@ def stacked(
 
 def can_be_stacked(cycle: Cycle, kit: Kit, work: Budget, *, hole: float, gap: float) -> bool:
     """Return whether an order of layers is found; no pin hangs from a bridge."""
-    near = _near(cycle, kit, hole, gap)
+    near = kit.near(cycle, hole, gap)
     clashes = [pair for pair, how in near.items() if not how.apart]
     try:
         work.spend(len(near))
-        return _ordered(len(kit.groups), _clashing(_nodes(kit, ()), clashes), work) is not None
+        return _ordered(len(kit.groups), _clashing(kit.nodes(()), clashes), work) is not None
     except GivenUp:
         return False
 
@@ -144,46 +137,20 @@ def _orders(
     first = len(kit.plates)
     fixed = [number for number, pin in enumerate(kit.pins) if pin.fixed and not pin.stuck]
     for hanging in (some for many in range(len(fixed) + 1) for some in combinations(fixed, many)):
-        choices = _clashing(_nodes(kit, hanging), clashes)
+        choices = _clashing(kit.nodes(hanging), clashes)
         levels = _ordered(len(kit.groups) + bool(hanging), choices, work, bridged=bool(hanging))
         if levels is not None:
             return hanging, choices, levels
         if not hanging:
             others = [pair for pair in clashes if not {number - first for number in pair} & {*fixed}]
-            if _ordered(len(kit.groups), _clashing(_nodes(kit, ()), others), work) is None:
+            if _ordered(len(kit.groups), _clashing(kit.nodes(()), others), work) is None:
                 break
     return (), [], None
 
 
-def _near(cycle: Cycle, kit: Kit, hole: float, gap: float) -> dict[tuple[int, int], Nearness]:
-    """Return how near plates and pins come, by pairs that may meet; pins are numbered after all plates."""
-    plates, pins = range(1, len(kit.plates)), list(enumerate(kit.pins, start=len(kit.plates)))
-    pairs = [(i, j) for i, j in combinations(plates, 2) if (i, j) not in kit.paired]
-    pairs += [(i, number) for i in plates for number, pin in pins if i not in pin.plates]
-    pairs += [(one, other) for (one, _), (other, _) in combinations(pins, 2)]
-    asked = [(i, j, gap) for i, j in pairs]
-    return dict(zip(pairs, cycle.nearness(pieces_of(kit, hole), asked), strict=True))
-
-
-def pieces_of(kit: Kit, hole: float) -> list[MovingPiece]:
-    """Return the shapes of all plates, and then of all pins, that may touch other parts."""
-    plates = [plate.piece for plate in kit.plates]
-    return plates + [MovingPiece(pin.frame, ((pin.at,),), hole / 2) for pin in kit.pins]
-
-
-def _nodes(kit: Kit, hanging: Sequence[int]) -> list[list[int]]:
-    """Return each plate's node, then the nodes that each pin goes through: 0 is the ground, a bridge last."""
-    node = {plate: number for number, group in enumerate(kit.groups) for plate in group}
-    nodes = [[node[plate]] for plate in range(len(kit.plates))]
-    for number, pin in enumerate(kit.pins):
-        through = {node[plate] for plate in pin.plates}
-        nodes.append(sorted(through - {0} | {len(kit.groups)} if number in hanging else through))
-    return nodes
-
-
 def _clashing(through: Sequence[Sequence[int]], clashes: Sequence[tuple[int, int]]) -> list[Choice]:
     """Return each clash as a choice."""
-    sets = [node_set(nodes) for nodes in through]
+    sets = [NodeSet.of(nodes) for nodes in through]
     return [(sets[one], sets[other]) for one, other in clashes]
 
 
@@ -192,7 +159,7 @@ def _to_blame(kit: Kit, clashes: Sequence[tuple[int, int]], work: Budget) -> lis
 
     Where the work for that is too much there may be some more of them.
     """
-    nodes, through = len(kit.groups), _nodes(kit, ())
+    nodes, through = len(kit.groups), kit.nodes(())
     blamed, many = list(clashes), len(clashes)
     try:
         while many > 1:
@@ -206,14 +173,6 @@ def _to_blame(kit: Kit, clashes: Sequence[tuple[int, int]], work: Budget) -> lis
     except GivenUp:
         pass
     return blamed
-
-
-def _clash(kit: Kit, pair: tuple[int, int], phase: float) -> Clash:
-    def called(number: int) -> str:
-        plates = len(kit.plates)
-        return kit.plates[number].name if number < plates else f"the pin at {kit.pins[number - plates].name}"
-
-    return Clash(called(pair[0]), called(pair[1]), phase)
 
 
 def _fewest(levels: list[int], choices: Sequence[Choice], *, bridged: bool) -> tuple[list[int], bool]:
@@ -260,9 +219,9 @@ class _Below:
     def framed(cls, nodes: int, *, bridged: bool) -> _Below:
         """Return that all lie above the ground, and below a bridge, which is the last node."""
         known = cls([0] * nodes, [0] * nodes)
-        known.put(node_set([0]), node_set(range(1, nodes)))
+        known.put(NodeSet.of([0]), NodeSet.of(range(1, nodes)))
         if bridged:
-            known.put(node_set(range(nodes - 1)), node_set([nodes - 1]))
+            known.put(NodeSet.of(range(nodes - 1)), NodeSet.of([nodes - 1]))
         return known
 
     def copy(self) -> _Below:

@@ -21,7 +21,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.words import name_said, said, said_many
 from linkanim.workshop.layers import Budget, Stack, Unstackable, can_be_stacked, stacked
 from linkanim.workshop.media import Size, Way
-from linkanim.workshop.parts import Band, Hole, Kit, Plate, Sizes, kit, refuse_thin
+from linkanim.workshop.parts import Band, Cut, Kit, Pin, Plate, Sizes, kit, refuse_thin
 from linkanim.workshop.shapes import box, polygon
 from linkanim.workshop.sweep import GROUND, Cycle
 
@@ -35,33 +35,6 @@ _MOST_TOLD = 6
 """The most clashes that a refusal lists."""
 _THINNER = (0.7, 0.5, 0.25)
 """Shares of the width of bars and holes that are tried where the full width has no layers."""
-
-
-class Spacer(NamedTuple):
-    """A ring on a pin that fills a layer between its plates: the layer, and its outer diameter."""
-
-    layer: int
-    diameter: float
-
-
-class MadePin(NamedTuple):
-    """A pin with the lowest and the highest layer that it reaches; 0 is the ground.
-
-    It moves with the point `at` of a frame, and goes through `plates` (numbers), in a slot of those that are
-    `sliding`. A fixed pin is carried from its `side`: from the ground below, or from a bridge above. It is
-    stuck in what carries it and turns in its other plates; a dowel or a post is `stuck` in all.
-    """
-
-    name: str
-    frame: Frame
-    at: complex
-    low: int
-    high: int
-    side: Literal["below", "above"] | None
-    plates: tuple[int, ...]
-    sliding: tuple[int, ...] = ()
-    stuck: bool = False
-    spacers: tuple[Spacer, ...] = ()
 
 
 @frozen
@@ -79,7 +52,7 @@ class MadeLinkage:
     sheet: Size
     plates: tuple[Plate, ...] = ()
     layer: tuple[int, ...] = ()
-    pins: tuple[MadePin, ...] = ()
+    pins: tuple[Pin, ...] = ()
     bands: tuple[Band, ...] = ()
     fewest: bool = True
     refused: str | None = None
@@ -181,7 +154,7 @@ class MadeLinkage:
             "fittings": [part for of_scene, part in every if not of_scene],
             "pins": [self._pin(pin) for pin in self.pins if not pin.stuck],
             "dowels": [self._pin(pin) for pin in self.pins if pin.stuck],
-            "bands": [band._asdict() for band in self.bands],
+            "bands": [{"name": name, "joints": joints} for name, joints in self.bands],
             "refused": self.refused,
         }
 
@@ -197,13 +170,13 @@ class MadeLinkage:
             "layer": self.layer[number],
             **_framed(plate.frame),
             "outline": [_pair(point) for point in polygon(plate.outline())],
-            "holes": [[*_pair(hole.at), hole.diameter] for hole in plate.holes],
+            "holes": [[*_pair(hole.begin), 2 * hole.radius] for hole in plate.holes],
             "joints": [hole.joint for hole in plate.holes],
             "slots": [[*_pair(slot.begin), *_pair(slot.end), 2 * slot.radius] for slot in plate.slots],
             "cuts": [[_pair(point) for point in polygon(teeth.outline(0.0))] for teeth in inside],
         }
 
-    def _pin(self, pin: MadePin) -> dict[str, object]:
+    def _pin(self, pin: Pin) -> dict[str, object]:
         return {
             "joint": pin.name,
             "from": pin.low,
@@ -291,21 +264,21 @@ def _is_stackable(cycle: Cycle, sizes: Sizes, work: Budget) -> bool:
     return can_be_stacked(cycle, parts, work, hole=sizes.hole, gap=sizes.gap)
 
 
-def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> MadePin:
+def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> Pin:
     """Return a pin with its ends, and with a ring in each layer between its plates that has room for one."""
     pin, hangs = parts.pins[number], number in stack.hanging
     plates = tuple(plate for plate in pin.plates if plate or not hangs)
     levels = {stack.layers[plate] for plate in plates} | ({max(stack.layers) + 1} if hangs else set())
     rings = [
-        Spacer(layer, 2 * reach)
+        (layer, 2 * reach)
         for layer in range(min(levels), max(levels))
         if layer not in levels
         for reach in [_reach(parts, stack, number, layer, sizes)]
         if reach >= sizes.hole / 2 + sizes.wall / 4
     ]
     side: Literal["below", "above"] | None = "above" if hangs else "below" if pin.fixed else None
-    ends = min(levels), max(levels)
-    return MadePin(pin.name, pin.frame, pin.at, *ends, side, plates, pin.sliding, pin.stuck, tuple(rings))
+    low, high = min(levels), max(levels)
+    return pin._replace(plates=plates, low=low, high=high, side=side, spacers=tuple(rings))
 
 
 def _reach(parts: Kit, stack: Stack, number: int, layer: int, sizes: Sizes) -> float:
@@ -337,8 +310,8 @@ def _bridged(cycle: Cycle, made: MadeLinkage) -> MadeLinkage:
         posts = (complex(left - beside, middle.imag), complex(right + beside, middle.imag))
     else:
         posts = (complex(middle.real, low - beside), complex(middle.real, high + beside))
-    stands = tuple(Hole(place, sizes.snug, "") for place in posts)
-    carried = tuple(Hole(place, sizes.snug, name) for name, place in hanging.items())
+    stands = tuple(Cut.hole(place, sizes.snug) for place in posts)
+    carried = tuple(Cut.hole(place, sizes.snug, name) for name, place in hanging.items())
     corners = (*hanging.values(), *posts)
     bridge = Plate("bridge", "bridge", GROUND, corners, sizes.bar / 2, holes=carried + stands)
     ground = made.plates[0]
@@ -347,7 +320,7 @@ def _bridged(cycle: Cycle, made: MadeLinkage) -> MadeLinkage:
     ground = replace(ground, holes=remaining + stands, corners=tuple(dict.fromkeys((*others, *posts))))
     pins = [pin._replace(plates=(*pin.plates, number)) if pin.name in hanging else pin for pin in made.pins]
     pins += [
-        MadePin(f"post {n}", GROUND, place, 0, top, "below", (0, number), stuck=True)
+        Pin(f"post {n}", GROUND, place, (0, number), stuck=True, high=top, side="below")
         for n, place in enumerate(posts, start=1)
     ]
     plates, layer = (ground, *made.plates[1:], bridge), (*made.layer, top)

@@ -12,20 +12,11 @@ MARGIN, FOOT = 10.0, 16.0
 
 
 class Laid(NamedTuple):
-    """A part on a sheet: its number, the sheet's number, the place of its frame's origin, its direction."""
+    """A part on a sheet: the sheet's number, the place of the frame's origin, the frame's direction."""
 
-    part: int
     sheet: int
     at: complex
     turn: complex
-
-
-class Oversize(NamedTuple):
-    """A part that no sheet holds: its number, and the sides of its smallest rectangle, in mm."""
-
-    part: int
-    long: float
-    wide: float
 
 
 class _Row(NamedTuple):
@@ -37,8 +28,10 @@ class _Row(NamedTuple):
     filled: float
 
 
-def nested(outlines: Sequence[Outline], room: tuple[float, float], between: float) -> list[Laid | Oversize]:
-    """Return the place of each outline, in the order given; a sheet's room has its origin at the lower left.
+def nested(outlines: Sequence[Outline], room: tuple[float, float], between: float) -> list[Laid | None]:
+    """Return the place of each outline, None for one that no sheet holds, in the order given.
+
+    A sheet's room has its origin at the lower left.
 
     Each goes into the first row with room for it, else into a new row, on a new sheet where the last has no
     room (first fit by decreasing height). A part that fits only upright is put upright.
@@ -50,14 +43,13 @@ def nested(outlines: Sequence[Outline], room: tuple[float, float], between: floa
         turned = ((by, box(by * point for point in points)) for by in (turn, 1j * turn))
         lying = [(by, around) for by, around in turned if _holds(room, around)]
         sizes.append(lying[0] if lying else (None, box(turn * point for point in points)))
-    laid: dict[int, Laid | Oversize] = {}
+    laid: list[Laid | None] = [None] * len(sizes)
     rows: list[_Row] = []
     for part in sorted(range(len(sizes)), key=lambda number: sizes[number][1][2] - sizes[number][1][3]):
         turn_, (left, right, low, top) = sizes[part]
-        wide, high = right - left, top - low
         if turn_ is None:
-            laid[part] = Oversize(part, wide, high)
             continue
+        wide, high = right - left, top - low
         fitting = (n for n, row in enumerate(rows) if high <= row.high and row.filled + wide <= room[0])
         at = next(fitting, len(rows))
         if at == len(rows):
@@ -66,9 +58,9 @@ def nested(outlines: Sequence[Outline], room: tuple[float, float], between: floa
             fits = foot + high <= room[1]
             rows.append(_Row(last.sheet, foot, high, 0.0) if fits else _Row(last.sheet + 1, 0.0, high, 0.0))
         row = rows[at]
-        laid[part] = Laid(part, row.sheet, complex(row.filled - left, row.foot - low), turn_)
+        laid[part] = Laid(row.sheet, complex(row.filled - left, row.foot - low), turn_)
         rows[at] = row._replace(filled=row.filled + wide + between)
-    return [laid[number] for number in range(len(sizes))]
+    return laid
 
 
 def _holds(room: tuple[float, float], around: tuple[float, float, float, float]) -> bool:

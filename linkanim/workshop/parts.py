@@ -22,7 +22,7 @@ from linkanim.mechanics.linkage import Body, Damper, Line, Slide, Spring
 from linkanim.picture.layered import Frame
 from linkanim.workshop.gears import GearWheel, NotFlat, meshes
 from linkanim.workshop.shapes import Outline, hull, moved, rounded
-from linkanim.workshop.sweep import GROUND, Cycle, MovingPiece, Real, hulls_apart
+from linkanim.workshop.sweep import GROUND, Cycle, MovingPiece, Nearness, Real, hulls_apart
 
 Role = Literal["ground", "link", "slider", "wheel", "ring", "bridge"]
 
@@ -76,21 +76,35 @@ class Sizes:
         return self.hole - 0.75 * self.clearance
 
 
-class Hole(NamedTuple):
-    """A round hole: its middle, its diameter, and the joint that it is for; "" for a dowel's."""
+class Cut(NamedTuple):
+    """A slot with round ends, or a round hole: the middles of its ends, half its width, its joint.
 
-    at: complex
-    diameter: float
-    joint: str
-
-
-class Slot(NamedTuple):
-    """A slot with round ends: the middles of its ends, half its width, and the joint that runs in it."""
+    It is the joint that it is for, or that runs in it; "" for a dowel's hole.
+    """
 
     begin: complex
     end: complex
     radius: float
     joint: str
+
+    @classmethod
+    def hole(cls, at: complex, diameter: float, joint: str = "") -> Cut:
+        """Return a round hole."""
+        return cls(at, at, diameter / 2, joint)
+
+    def outline(self, grown: float) -> Outline:
+        """Return its edge, moved inwards by `grown` mm."""
+        return rounded([self.begin, self.end], self.radius - grown)
+
+    def apart(self, other: Cut) -> float:
+        """Return the distance of two cuts, from edge to edge; below 0 where they overlap."""
+        ends = (np.array([cut[:2]]) for cut in (self, other))
+        return float(hulls_apart(*ends)[0]) - self.radius - other.radius
+
+    @property
+    def words(self) -> str:
+        """What it is called: the hole A, the slot for B."""
+        return f"the {'hole' if self.begin == self.end else 'slot for'} {self.joint}".strip()
 
 
 class Toothing(NamedTuple):
@@ -119,8 +133,8 @@ class Plate:
     corners: tuple[complex, ...]
     radius: float
     bodies: tuple[str, ...] = ()
-    holes: tuple[Hole, ...] = ()
-    slots: tuple[Slot, ...] = ()
+    holes: tuple[Cut, ...] = ()
+    slots: tuple[Cut, ...] = ()
     teeth: Toothing | None = None
 
     def outline(self, grown: float = 0.0) -> Outline:
@@ -131,10 +145,8 @@ class Plate:
 
     def cuts(self, grown: float = 0.0) -> Iterator[Outline]:
         """Yield the edges of its holes, its slots and a ring's teeth, moved inwards by `grown` mm."""
-        for hole in self.holes:
-            yield rounded([hole.at], hole.diameter / 2 - grown)
-        for slot in self.slots:
-            yield rounded([slot.begin, slot.end], slot.radius - grown)
+        for one in self.holes + self.slots:
+            yield one.outline(grown)
         if self.teeth is not None and self.teeth.wheel.ring:
             yield self.teeth.outline(grown)
 
@@ -156,10 +168,7 @@ class Plate:
     @property
     def clearest(self) -> complex:
         """The place on it, between holes or at corners, with most room from its edge and its cuts."""
-        cuts = [
-            *((hole.at, hole.at) for hole in self.holes),
-            *((slot.begin, slot.end) for slot in self.slots),
-        ]
+        cuts = [(one.begin, one.end) for one in self.holes + self.slots]
         ends = dict.fromkeys(end for pair in cuts for end in pair)
         places = [(a + b) / 2 for a, b in combinations(ends, 2)]
         places += [sum(self.corners) / len(self.corners), *self.corners]
@@ -179,11 +188,14 @@ class Plate:
         return places[int(room.argmax())]
 
 
-class KitPin(NamedTuple):
+class Pin(NamedTuple):
     """A pin through `plates` (numbers) that moves with the point `at` of a frame.
 
     It runs in a slot of the plates that are `sliding`. A dowel, which keeps plates from turning on each
-    other, is `stuck` in all of its plates, and has the name of no joint.
+    other, or a post is `stuck` in all of its plates, and has the name of no joint. In layers it reaches from
+    the one that is `low` to the one that is `high`; 0 is the ground. A fixed pin is carried from its `side`,
+    from the ground below or from a bridge above: it is stuck in that and turns in its other plates.
+    `spacers` are the rings that fill layers between its plates: the layer, and the outer diameter.
     """
 
     name: str
@@ -192,6 +204,10 @@ class KitPin(NamedTuple):
     plates: tuple[int, ...]
     sliding: tuple[int, ...] = ()
     stuck: bool = False
+    low: int = 0
+    high: int = 0
+    side: Literal["below", "above"] | None = None
+    spacers: tuple[tuple[int, float], ...] = ()
 
     @property
     def fixed(self) -> bool:
@@ -199,24 +215,51 @@ class KitPin(NamedTuple):
         return 0 in self.plates and 0 not in self.sliding
 
 
-class Band(NamedTuple):
-    """A rubber band for a spring or damper: the name of that, and the two joints that it is hung on."""
-
-    name: str
-    joints: tuple[str, str]
+Band = tuple[str, tuple[str, str]]
+"""A rubber band for a spring or damper: the name of that, and the two joints that it is hung on."""
 
 
 class Kit(NamedTuple):
-    """All parts of a linkage; plate 0 is the ground.
+    """All parts of a linkage; plate 0 is the ground. Pins are numbered after all plates.
 
     Plates of one group lie in one layer; two plates in `paired` are meant to touch, or lie in each other.
     """
 
     plates: tuple[Plate, ...]
-    pins: tuple[KitPin, ...]
+    pins: tuple[Pin, ...]
     bands: tuple[Band, ...]
     groups: tuple[tuple[int, ...], ...]
     paired: frozenset[tuple[int, int]]
+
+    def pieces(self, hole: float) -> list[MovingPiece]:
+        """Return the shapes of all plates, and then of all pins, that may touch other parts."""
+        plates = [plate.piece for plate in self.plates]
+        return plates + [MovingPiece(pin.frame, ((pin.at,),), hole / 2) for pin in self.pins]
+
+    def near(self, cycle: Cycle, hole: float, gap: float) -> dict[tuple[int, int], Nearness]:
+        """Return how near plates and pins come, by pairs that may meet."""
+        plates, pins = range(1, len(self.plates)), list(enumerate(self.pins, start=len(self.plates)))
+        pairs = [(i, j) for i, j in combinations(plates, 2) if (i, j) not in self.paired]
+        pairs += [(i, number) for i in plates for number, pin in pins if i not in pin.plates]
+        pairs += [(one, other) for (one, _), (other, _) in combinations(pins, 2)]
+        asked = [(i, j, gap) for i, j in pairs]
+        return dict(zip(pairs, cycle.nearness(self.pieces(hole), asked), strict=True))
+
+    def nodes(self, hanging: Sequence[int]) -> list[list[int]]:
+        """Return each plate's node, then those that each pin goes through: 0 is the ground, a bridge last."""
+        node = {plate: number for number, group in enumerate(self.groups) for plate in group}
+        nodes = [[node[plate]] for plate in range(len(self.plates))]
+        for number, pin in enumerate(self.pins):
+            through = {node[plate] for plate in pin.plates}
+            nodes.append(sorted(through - {0} | {len(self.groups)} if number in hanging else through))
+        return nodes
+
+    def name(self, number: int) -> str:
+        """Return what a plate or a pin is called."""
+        plates = len(self.plates)
+        return (
+            self.plates[number].name if number < plates else f"the pin at {self.pins[number - plates].name}"
+        )
 
 
 def kit(cycle: Cycle, sizes: Sizes) -> Kit:
@@ -231,28 +274,17 @@ def kit(cycle: Cycle, sizes: Sizes) -> Kit:
 def refuse_thin(plates: Iterable[Plate], sizes: Sizes) -> None:
     """Raise BadInput where two cuts of a plate leave too little between them."""
     for plate in plates:
-        cuts = [
-            *(
-                (hole.at, hole.at, hole.diameter / 2, f"the hole {hole.joint}".strip())
-                for hole in plate.holes
-            ),
-            *((slot.begin, slot.end, slot.radius, f"the slot for {slot.joint}") for slot in plate.slots),
-        ]
-        for one, other in combinations(cuts, 2):
-            # Slots of the ground may cross: a tongue is longer than the other slot is wide.
-            between = math.inf if one[0] != one[1] and other[0] != other[1] else _between(one[:3], other[:3])
+        for one, other in combinations(plate.holes + plate.slots, 2):
+            if one.begin != one.end and other.begin != other.end:
+                continue  # slots of the ground may cross: a tongue is longer than the other slot is wide
+            between = one.apart(other)
             if between < sizes.between:
                 gap = f"leave {between:.2g} mm between them" if between > 0 else "run into each other"
                 raise BadInput(
-                    f"{plate.name}: {one[3]} and {other[3]}, {2 * one[2]:.3g} and {2 * other[2]:.3g} mm "
-                    f"wide, {gap}; make them narrower (--hole, --bar), or everything larger (--fit)"
+                    f"{plate.name}: {one.words} and {other.words}, {2 * one.radius:.3g} and "
+                    f"{2 * other.radius:.3g} mm wide, {gap}; make them narrower (--hole, --bar), or "
+                    "everything larger (--fit)"
                 )
-
-
-def _between(one: tuple[complex, complex, float], other: tuple[complex, complex, float]) -> float:
-    """Return the distance of two cuts with round ends, from edge to edge; below 0 where they overlap."""
-    ends = (np.array([cut[:2]]) for cut in (one, other))
-    return float(hulls_apart(*ends)[0]) - one[2] - other[2]
 
 
 @dataclass
@@ -268,7 +300,7 @@ class _PlateDraft:
     """The joints that its outline includes even where it has no hole."""
     reach: list[complex] = field(default_factory=list)
     """Other points that its outline includes."""
-    slots: list[Slot] = field(default_factory=list)
+    slots: list[Cut] = field(default_factory=list)
     guided: set[str] = field(default_factory=set)
     """The joints whose own pins, not tongues, run in its slots."""
     radius: float = 0.0
@@ -288,7 +320,7 @@ class _KitBuilder:
         self.struts: tuple[Spring | Damper, ...] = (*self.linkage.springs, *self.linkage.dampers)
         self.hung = {name for strut in self.struts for name in strut.between}
         self.drafts: list[_PlateDraft] = []
-        self.dowels: list[KitPin] = []
+        self.dowels: list[Pin] = []
         self.one_layer: list[tuple[int, int]] = []
 
     def kit(self) -> Kit:
@@ -307,7 +339,7 @@ class _KitBuilder:
             self._pair(first, second)
         pins = (*self._pins(), *self.dowels)
         plates = tuple(self._plate(number, pins) for number in range(len(self.drafts)))
-        bands = tuple(Band(self.linkage.strut_words(strut), strut.between) for strut in self.struts)
+        bands = tuple((self.linkage.strut_words(strut), strut.between) for strut in self.struts)
         groups = _joined(len(plates), self.one_layer)
         return Kit(plates, pins, bands, groups, frozenset(self.one_layer))
 
@@ -392,7 +424,7 @@ class _KitBuilder:
         self.drafts.append(yoke)
         number, direction = len(self.drafts) - 1, cmath.rect(1.0, pin.angle - bar.angle)
         least, most = _range((self.cycle.seen(pin.point, frame) * direction.conjugate()).real)
-        yoke.slots.append(Slot(direction * least, direction * most, self.sizes.hole / 2, pin.point))
+        yoke.slots.append(Cut(direction * least, direction * most, self.sizes.hole / 2, pin.point))
         yoke.guided.add(pin.point)
         ends = self._free_ends(bar.point, bar.line, 2.5 * self.sizes.bar)
         self._tongue(bar.point, bar.line, ends, f"{name} tongue")
@@ -417,7 +449,7 @@ class _KitBuilder:
     def _slot(self, point: str, line: Line, ends: tuple[float, float], radius: float) -> None:
         """Cut a slot for a part that slides along a line, from `ends[0]` to `ends[1]` of its joint (mm)."""
         base, direction, least, most = self._travel(point, line)
-        slot = Slot(base + direction * (least + ends[0]), base + direction * (most + ends[1]), radius, point)
+        slot = Cut(base + direction * (least + ends[0]), base + direction * (most + ends[1]), radius, point)
         draft = self.drafts[self._guide(line)]
         draft.slots.append(slot)
         draft.reach += [slot.begin, slot.end]
@@ -503,7 +535,7 @@ class _KitBuilder:
 
     def _dowel(self, frame: Frame, at: complex, plates: tuple[int, int]) -> None:
         name = f"dowel {len(self.dowels) + 1}"
-        self.dowels.append(KitPin(name, frame, at, plates, stuck=True))
+        self.dowels.append(Pin(name, frame, at, plates, stuck=True))
 
     def _used(self, number: int) -> list[str]:
         """Return the joints of a plate that are in use: by another plate, a band or a pencil."""
@@ -515,7 +547,7 @@ class _KitBuilder:
             if name in wanted or any(one.has(name) for one in others)
         ]
 
-    def _pins(self) -> Iterator[KitPin]:
+    def _pins(self) -> Iterator[Pin]:
         """Yield a pin for each joint at which plates meet; joints that always coincide share one."""
         paths: dict[str, list[str]] = {}
         for name in (joint.name for joint in self.linkage.joints):
@@ -526,34 +558,31 @@ class _KitBuilder:
             plates = [n for n, draft in enumerate(self.drafts) if any(map(draft.has, names))]
             if len(plates) > 1:
                 sliding = tuple(n for n in plates if not self.drafts[n].places.keys() & set(names))
-                yield KitPin(first, Frame(first), 0j, tuple(plates), sliding)
+                yield Pin(first, Frame(first), 0j, tuple(plates), sliding)
 
-    def _plate(self, number: int, pins: Sequence[KitPin]) -> Plate:
+    def _plate(self, number: int, pins: Sequence[Pin]) -> Plate:
         """Return a plate with its holes: for pins, dowels, the eyes of bands, and a pencil."""
         draft, sizes = self.drafts[number], self.sizes
-        holes: list[Hole] = []
+        holes: list[Cut] = []
         for pin in (pin for pin in pins if number in pin.plates and number not in pin.sliding):
             at = complex(self._seen(pin, draft.frame))
             name = next((name for name, place in draft.places.items() if abs(place - at) <= self.small), "")
             stuck = pin.stuck or draft.role == "ground"
-            holes.append(Hole(draft.places.get(name, at), sizes.snug if stuck else sizes.hole, name))
+            holes.append(Cut.hole(draft.places.get(name, at), sizes.snug if stuck else sizes.hole, name))
         traced = self.cycle.scene.trace if draft.role == "link" else ()
         for name, place in draft.places.items():
-            cuts = [
-                *((hole.at, hole.at, hole.diameter / 2) for hole in holes),
-                *(slot[:3] for slot in draft.slots),
-            ]
-            room = min((_between((place, place, sizes.hole / 2), cut) for cut in cuts), default=math.inf)
+            eye = Cut.hole(place, sizes.hole, name)
+            room = min((eye.apart(one) for one in (*holes, *draft.slots)), default=math.inf)
             # A pencil's hole is left out where there is no room for it; a band's eye is not.
             if (name in self.hung and room > -sizes.hole) or (name in traced and room >= sizes.between):
-                holes.append(Hole(place, sizes.hole, name))
+                holes.append(eye)
         if draft.teeth is not None and not draft.teeth.wheel.ring:
             corners: Iterable[complex] = (draft.teeth.middle,)
         elif draft.teeth is not None:
             corners = draft.reach
         else:
             shown = (draft.places[name] for name in draft.places if name in draft.shown)
-            corners = (*(hole.at for hole in holes), *shown, *draft.reach)
+            corners = (*(hole.begin for hole in holes), *shown, *draft.reach)
         least = {"ground": sizes.bar, "slider": 0.0}.get(draft.role, sizes.bar / 2)
         radius = (
             draft.teeth.wheel.tip if draft.teeth and not draft.teeth.wheel.ring else max(draft.radius, least)
@@ -570,7 +599,7 @@ class _KitBuilder:
             draft.teeth,
         )
 
-    def _seen(self, pin: KitPin, frame: Frame) -> complex:
+    def _seen(self, pin: Pin, frame: Frame) -> complex:
         """Return the place of a pin in a frame in which it does not move."""
         if pin.frame == frame:
             return pin.at

@@ -19,8 +19,8 @@ from linkanim.workshop.layers import MOST_WORK, Budget
 from linkanim.workshop.made import SLENDER, MadeLinkage, laid, true_scale
 from linkanim.workshop.media import PAGES, WAYS, Size, Way
 from linkanim.workshop.nesting import FOOT, MARGIN
-from linkanim.workshop.parts import Plate, Sizes, kit
-from linkanim.workshop.shapes import box, polygon, upright
+from linkanim.workshop.parts import Sizes, kit
+from linkanim.workshop.shapes import sides
 from linkanim.workshop.sweep import GROUND, Cycle
 
 _SHEETS: dict[str, Size] = {"laser": (600.0, 400.0), "print": (math.inf, math.inf), "cardboard": PAGES["A4"]}
@@ -165,7 +165,7 @@ def _fitting(scene: Scene, asked: _Asked, page: Size) -> float:
     def growth(ratio: float) -> float:
         """Return the factor by which the tightest part could grow and still fit."""
         plates = kit(Cycle(scene, ratio * true), asked.sizes(scene, ratio * true)).plates
-        sizes = (_size(plate) for plate in plates)
+        sizes = (sides(plate.outline()) for plate in plates)
         return min(most / size for both in sizes for size, most in zip(both, room, strict=True))
 
     cycle = Cycle(scene, true)
@@ -186,11 +186,3 @@ def _fitting(scene: Scene, asked: _Asked, page: Size) -> float:
     while growth(ratio) < 1:
         ratio = _rounded(0.99 * ratio)
     return ratio * true
-
-
-def _size(plate: Plate) -> Size:
-    """Return the sides of the smallest rectangle about a plate, the longer one first."""
-    points = polygon(plate.outline())
-    turn = upright(points)
-    left, right, low, high = box(turn * point for point in points)
-    return right - left, high - low

@@ -14,8 +14,6 @@ import numpy as np
 
 Outline = tuple[tuple[complex, float], ...]
 """A closed line: each corner, and the bulge of the edge from it to the next."""
-Hole = tuple[complex, float]
-"""A round hole: its middle and its diameter."""
 
 _CHORD = 0.005
 """How far a polygon's sides stay within the arcs that they stand for, in mm."""
@@ -114,3 +112,11 @@ def upright(points: Iterable[complex]) -> complex:
     wide, high = np.ptp(turned.real, axis=1), np.ptp(turned.imag, axis=1)
     least = int((wide * high).argmin())
     return complex(directions[least]) * (1 if wide[least] >= high[least] else -1j)
+
+
+def sides(outline: Outline) -> tuple[float, float]:
+    """Return the sides of the smallest rectangle about an outline, the longer one first."""
+    points = polygon(outline)
+    turn = upright(points)
+    left, right, low, high = box(turn * point for point in points)
+    return right - left, high - low

@@ -24,7 +24,8 @@ from linkanim.play.quiz import LETTERS, next_question, pose_words
 from linkanim.units import significant
 from linkanim.words import name_said, row_said, said, said_as, said_many, sentences, to_say
 from linkanim.workshop.drawing import Drawn
-from linkanim.workshop.made import MadeLinkage, MadePin
+from linkanim.workshop.made import MadeLinkage
+from linkanim.workshop.parts import Pin
 
 _FIGURE, _PLAN, _SIDE, _EXPLODED, _STEP = (820, 440), (820, 500), (820, 260), (820, 560), (440, 300)
 _QUESTIONS = 4
@@ -138,18 +139,19 @@ class Sheet:
                 f"{(pin.high - pin.low + 1) * sizes.thickness:g} mm",
                 f"{_level(pin.low)}, {_level(pin.high)}",
                 {"below": said("in the ground"), "above": said("in the bridge"), None: ""}[pin.side],
-                "; ".join(f"{pin.name} {ring.layer}: {_mm(ring.diameter)}" for ring in pin.spacers),
+                "; ".join(f"{pin.name} {layer}: {_mm(diameter)}" for layer, diameter in pin.spacers),
             )
             for pin in made.pins
         ]
         if pins:
             yield html.table(said("Pins, and the rings on them that keep layers apart"), heads, pins)
-        for band in made.bands:
-            ends = row_said([subscripted(name) for name in band.joints])
-            words = said(
-                "The {band} is a rubber band between {joints}, above all layers.", band=band.name, joints=ends
+        for band, joints in made.bands:
+            ends = row_said([subscripted(name) for name in joints])
+            yield html.paragraph(
+                said(
+                    "The {band} is a rubber band between {joints}, above all layers.", band=band, joints=ends
+                )
             )
-            yield html.paragraph(words)
 
     def _row(self, number: int) -> Iterator[str]:
         """Yield the cells of a plate's row."""
@@ -163,7 +165,7 @@ class Sheet:
         named = [hole for hole in plate.holes if hole.joint]
         yield ", ".join(subscripted(hole.joint) for hole in named)
         yield ", ".join(subscripted(slot.joint) for slot in plate.slots)
-        far = max((abs(one.at - other.at) for one in named for other in named), default=0.0)
+        far = max((abs(one.begin - other.begin) for one in named for other in named), default=0.0)
         if plate.teeth is not None:
             wheel = plate.teeth.wheel
             module = f"{significant(wheel.module, 4)} mm"
@@ -216,7 +218,7 @@ class Sheet:
         made, layer = self.made, self.made.layer[number]
         pins = [pin for pin in made.pins if number in pin.plates]
         there = [pin for pin in pins if pin.low < layer]
-        ringed = [pin for pin in there if any(ring.layer < layer for ring in pin.spacers)]
+        ringed = [pin for pin in there if any(between < layer for between, _ in pin.spacers)]
         words = said("Layer {number}: {part}", number=layer, part=made.label(number))
         for more, some in (
             (to_say(", with {pins} through it from below"), [pin for pin in pins if pin.low == layer]),
@@ -332,7 +334,7 @@ def _level(layer: int) -> str:
     return str(layer) if layer else name_said("ground")
 
 
-def _named(pins: Sequence[MadePin]) -> str:
+def _named(pins: Sequence[Pin]) -> str:
     """Return pins in words."""
     names = [subscripted(pin.name) for pin in pins]
     return said_many("pin {names}", "pins {names}", len(names), names=row_said(names))

@@ -8,12 +8,13 @@ speeds do not explain. Where that bound does not settle whether two pieces stay 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.linkage import Crank
 from linkanim.picture.layered import Frame
 from linkanim.scenes.scene import Scene
 
@@ -32,14 +33,6 @@ _CAUTION = 2.0
 GROUND = Frame()
 
 
-class MovingPiece(NamedTuple):
-    """Convex cells, each the corners of a hull in the frame, with one radius about them; lengths in mm."""
-
-    frame: Frame
-    cells: tuple[tuple[complex, ...], ...]
-    radius: float
-
-
 class Nearness(NamedTuple):
     """Whether two pieces stay as far apart as asked; their least distance, in mm; its phase, in rad.
 
@@ -51,6 +44,18 @@ class Nearness(NamedTuple):
     phase: float
 
 
+class _Placed(NamedTuple):
+    """The place of a frame: its origin and its direction, each with two derivatives by the phase."""
+
+    origin: tuple[Points, Points, Points]
+    direction: tuple[Points, Points, Points]
+
+    def at(self, points: Sequence[complex], rows: Numbers | slice = slice(None)) -> Points:
+        """Return the places of points of the frame, (phases, points), at the phases `rows`."""
+        places: Points = self.origin[0][rows, None] + self.direction[0][rows, None] * np.asarray(points)
+        return places
+
+
 class _Places(NamedTuple):
     """The places of joints, in mm, and their first two derivatives by the phase."""
 
@@ -58,12 +63,62 @@ class _Places(NamedTuple):
     velocity: Mapping[str, Points]
     acceleration: Mapping[str, Points]
 
+    def placed(self, frame: Frame, count: int) -> _Placed:
+        """Return the place of a frame at the `count` phases."""
+        nothing = np.zeros(count, np.complex128)
+        origin = (nothing, nothing, nothing)
+        if frame.origin is not None:
+            origin = tuple(quantity[frame.origin] for quantity in self)  # type: ignore[assignment]
+        if frame.axis is None:
+            return _Placed(origin, (nothing + frame.turn, nothing, nothing))
+        begin, end = frame.axis
+        bar, moves, speeds = (quantity[end] - quantity[begin] for quantity in self)
+        size = np.abs(bar)
+        direction = bar / size
+        # The bar keeps its length, so its direction's derivatives follow from the components across it.
+        rate = (moves * direction.conj()).imag / size
+        second = (speeds * direction.conj()).imag / size
+        direction = direction * frame.turn
+        return _Placed(origin, (direction, 1j * rate * direction, (1j * second - rate**2) * direction))
 
-class _Placed(NamedTuple):
-    """The place of a frame: its origin and its direction, each with two derivatives."""
+    def quickest(self, cranks: Iterable[Crank]) -> float:
+        """Return the turning rate of the quickest crank, relative to the drive's phase."""
+        rates = [1.0]
+        for crank in cranks:
+            bar = self.position[crank.name] - self.position[crank.pivot]
+            moves = self.velocity[crank.name] - self.velocity[crank.pivot]
+            rates.append(float(np.max(np.abs((moves * bar.conj()).imag / np.abs(bar) ** 2))))
+        return max(rates)
 
-    origin: tuple[Points, Points, Points]
-    direction: tuple[Points, Points, Points]
+
+class MovingPiece(NamedTuple):
+    """Convex cells, each the corners of a hull in the frame, with one radius about them; lengths in mm."""
+
+    frame: Frame
+    cells: tuple[tuple[complex, ...], ...]
+    radius: float
+
+    def stray(self, placed: _Placed, first: Numbers, last: Numbers, step: float) -> Real:
+        """Return the most that its points are off their places at the nearer end, for each step (mm)."""
+        far = max(abs(corner) for cell in self.cells for corner in cell)
+        total = np.zeros(len(first))
+        for (place, speed, acceleration), share in ((placed.origin, 1.0), (placed.direction, far)):
+            fastest = np.maximum(np.abs(speed[first]), np.abs(speed[last]))
+            bent = _CAUTION * np.maximum(np.abs(acceleration[first]), np.abs(acceleration[last]))
+            drift = place[last] - place[first] - (speed[first] + speed[last]) * (step / 2)
+            total += share * (fastest * (step / 2) + bent * (step**2 / 8) + np.abs(drift))
+        return total
+
+    def apart(self, other: MovingPiece, placed: Mapping[Frame, _Placed], rows: Numbers) -> Real:
+        """Return the distance from another piece at each phase; 0 or less where they overlap."""
+        ones, others = (
+            [placed[piece.frame].at(cell, rows) for cell in piece.cells] for piece in (self, other)
+        )
+        least = np.full(len(rows), np.inf)
+        for a in ones:
+            for b in others:
+                np.minimum(least, hulls_apart(a, b), out=least)
+        return least - self.radius - other.radius
 
 
 class Cycle:
@@ -73,7 +128,7 @@ class Cycle:
         """Solve the scene; `scale` is mm per unit of length."""
         self.scene, self.scale = scene, scale
         self.count = _SAMPLES * max(round(scene.period / (2 * np.pi)), 1)
-        quickest = _quickest(self._at(self.phases), scene)
+        quickest = self._at(self.phases).quickest(scene.linkage.cranks)
         self.count = int(min(self.count * max(quickest, 1.0), max(_MOST_SAMPLES, self.count)))
         self._start = self._at(self.phases)
 
@@ -94,13 +149,11 @@ class Cycle:
 
     def paths(self, frame: Frame, points: Sequence[complex]) -> Points:
         """Return the places of points of a frame at the samples, (samples, points), in the ground's frame."""
-        placed = _placed(frame, self._start, self.count)
-        places: Points = placed.origin[0][:, None] + placed.direction[0][:, None] * np.asarray(points)
-        return places
+        return self._start.placed(frame, self.count).at(points)
 
     def seen(self, joint: str, frame: Frame) -> Points:
         """Return the places of a joint at the samples, (samples,), in a frame's own coordinates."""
-        placed = _placed(frame, self._start, self.count)
+        placed = self._start.placed(frame, self.count)
         return (self._start.position[joint] - placed.origin[0]) * placed.direction[0].conj()
 
     def nearness(
@@ -145,8 +198,8 @@ class Cycle:
         rims = np.unique(np.concatenate((begins, begins + width)) % round_)
         first, last = (np.searchsorted(rims, some % round_) for some in (begins, begins + width))
         known = places or self._at(rims * unit)
-        placed = {frame: _placed(frame, known, len(rims)) for frame in {piece.frame for piece in pieces}}
-        strays = [_stray(piece, placed[piece.frame], first, last, width * unit) for piece in pieces]
+        placed = {frame: known.placed(frame, len(rims)) for frame in {piece.frame for piece in pieces}}
+        strays = [piece.stray(placed[piece.frame], first, last, width * unit) for piece in pieces]
         return _Steps(pieces, placed, strays, begins, rims, first, last)
 
 
@@ -169,7 +222,7 @@ class _Steps(NamedTuple):
         """Yield the pairs (number, distance) whose moving boxes alone are as far apart as asked."""
         lows, highs = [], []
         for piece, stray in zip(self.pieces, self.strays, strict=True):
-            places = np.concatenate([_corners(piece, self.placed, cell).ravel() for cell in piece.cells])
+            places = np.concatenate([self.placed[piece.frame].at(cell).ravel() for cell in piece.cells])
             rim = piece.radius + float(stray.max())
             lows.append((float(places.real.min()) - rim, float(places.imag.min()) - rim))
             highs.append((float(places.real.max()) + rim, float(places.imag.max()) + rim))
@@ -184,71 +237,10 @@ class _Steps(NamedTuple):
         ends, back = np.arange(len(self.rims)), np.concatenate((self.first[rows], self.last[rows]))
         if len(own) < len(self.begins):
             ends, back = np.unique(back, return_inverse=True)
-        apart = _apart(one, other, self.placed, ends)
+        apart = one.apart(other, self.placed, ends)
         n = int(apart.argmin())
         sure = apart[back].reshape(2, -1).min(axis=0) - self.strays[i][rows] - self.strays[j][rows]
         return float(apart[n]), int(self.rims[ends[n]]), sure
-
-
-def _quickest(places: _Places, scene: Scene) -> float:
-    """Return the turning rate of the quickest crank, relative to the drive's phase."""
-    rates = [1.0]
-    for crank in scene.linkage.cranks:
-        bar = places.position[crank.name] - places.position[crank.pivot]
-        moves = places.velocity[crank.name] - places.velocity[crank.pivot]
-        rates.append(float(np.max(np.abs((moves * bar.conj()).imag / np.abs(bar) ** 2))))
-    return max(rates)
-
-
-def _placed(frame: Frame, places: _Places, count: int) -> _Placed:
-    nothing = np.zeros(count, np.complex128)
-    origin = (nothing, nothing, nothing)
-    if frame.origin is not None:
-        origin = tuple(quantity[frame.origin] for quantity in places)  # type: ignore[assignment]
-    if frame.axis is None:
-        return _Placed(origin, (nothing + frame.turn, nothing, nothing))
-    begin, end = frame.axis
-    bar, moves, speeds = (quantity[end] - quantity[begin] for quantity in places)
-    size = np.abs(bar)
-    direction = bar / size
-    # The bar keeps its length, so its direction's derivatives follow from the components across it.
-    rate = (moves * direction.conj()).imag / size
-    second = (speeds * direction.conj()).imag / size
-    direction = direction * frame.turn
-    return _Placed(origin, (direction, 1j * rate * direction, (1j * second - rate**2) * direction))
-
-
-def _stray(piece: MovingPiece, placed: _Placed, first: Numbers, last: Numbers, step: float) -> Real:
-    """Return the most that a piece's points are off their places at the nearer end, for each step (mm)."""
-    far = max(abs(corner) for cell in piece.cells for corner in cell)
-    total = np.zeros(len(first))
-    for (place, speed, acceleration), share in ((placed.origin, 1.0), (placed.direction, far)):
-        fastest = np.maximum(np.abs(speed[first]), np.abs(speed[last]))
-        bent = _CAUTION * np.maximum(np.abs(acceleration[first]), np.abs(acceleration[last]))
-        drift = place[last] - place[first] - (speed[first] + speed[last]) * (step / 2)
-        total += share * (fastest * (step / 2) + bent * (step**2 / 8) + np.abs(drift))
-    return total
-
-
-def _corners(
-    piece: MovingPiece, placed: Mapping[Frame, _Placed], cell: Sequence[complex], rows: Numbers | None = None
-) -> Points:
-    """Return the places of a cell's corners, (phases, corners), at the phases `rows` or at all."""
-    origin, direction = placed[piece.frame].origin[0], placed[piece.frame].direction[0]
-    if rows is not None:
-        origin, direction = origin[rows], direction[rows]
-    corners: Points = origin[:, None] + direction[:, None] * np.asarray(cell)
-    return corners
-
-
-def _apart(one: MovingPiece, other: MovingPiece, placed: Mapping[Frame, _Placed], rows: Numbers) -> Real:
-    """Return the distance of two pieces at each phase; 0 or less where they overlap."""
-    ones, others = ([_corners(piece, placed, cell, rows) for cell in piece.cells] for piece in (one, other))
-    least = np.full(len(rows), np.inf)
-    for a in ones:
-        for b in others:
-            np.minimum(least, hulls_apart(a, b), out=least)
-    return least - one.radius - other.radius
 
 
 def hulls_apart(a: Points, b: Points) -> Real:

@@ -49,12 +49,13 @@ def test_a_dxf_has_each_part_s_holes_as_far_apart_as_the_scene_s_joints(name: st
     found = sorted(spans([p for p in middles if region.contains(p)]) for region in regions)
     found = [some for some in found if some]
     expected = sorted(
-        spans([shapely.Point(hole.at.real, hole.at.imag) for hole in plate.holes]) for plate in made.plates
+        spans([shapely.Point(hole.begin.real, hole.begin.imag) for hole in plate.holes])
+        for plate in made.plates
     )
     for one, other in zip(found, [some for some in expected if some], strict=True):
         assert one == pytest.approx(other, abs=1e-6)
     radii = {round(circle.dxf.radius, 9) for circle in circles}
-    assert {round(hole.diameter / 2 - 0.1, 9) for hole in made.plates[1].holes} <= radii
+    assert {round(hole.radius - 0.1, 9) for hole in made.plates[1].holes} <= radii
 
 
 def spans(points: list[Any]) -> list[float]:
@@ -69,7 +70,7 @@ def test_an_svg_is_in_mm_and_its_parts_lie_apart_on_the_sheet() -> None:
     paths = [element.get("d", "") for element in root.iter("{http://www.w3.org/2000/svg}path")]
     assert len(paths) == len(documents.flat_parts(made))
     crank = made.plates[1]
-    hole = crank.holes[0].diameter / 2
+    hole = crank.holes[0].radius
     # an arc's radius is a hole's less half the kerf, an edge's with it
     assert any(f"A{hole - 0.2:.6f} {hole - 0.2:.6f}" in path for path in paths)
     assert any(f"A{crank.radius + 0.2:.6f} {crank.radius + 0.2:.6f}" in path for path in paths)
@@ -230,7 +231,7 @@ def test_labels_stand_clear_of_holes() -> None:
         made = make(load(name), fit="A4")
         for part, plate in zip(documents.flat_parts(made), made.plates, strict=False):
             for hole in plate.holes:
-                assert abs(hole.at - part.at) > hole.diameter / 2, part.label
+                assert abs(hole.begin - part.at) > hole.radius, part.label
     assert re.fullmatch(r"\d+", make(load("press")).label(1))
     assert rounded([0j], 1.0)[0][1] == 1.0
 
@@ -260,7 +261,7 @@ def test_every_hole_has_its_letter_on_its_part_beside_it(name: str) -> None:
         whole = shapely.Polygon([(p.real, p.imag) for p in polygon(part.edge)])
         for joint, at in part.letters:
             assert whole.contains(shapely.Point(at.real, at.imag)), joint
-            assert all(abs(at - hole.at) > hole.diameter / 2 for hole in plate.holes)
+            assert all(abs(at - hole.begin) > hole.radius for hole in plate.holes)
     text = documents.svg(made)
     drawing = ezdxf.filemanagement.read(StringIO(documents.dxf(made)))
     engraved = [one.dxf.text for one in drawing.modelspace().query("TEXT")]

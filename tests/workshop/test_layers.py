@@ -19,8 +19,8 @@ from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.workshop import layers
-from linkanim.workshop.layers import Budget, Choice, Unstackable, node_set, stacked
-from linkanim.workshop.made import MadeLinkage, MadePin
+from linkanim.workshop.layers import Budget, Choice, NodeSet, Unstackable, stacked
+from linkanim.workshop.made import MadeLinkage
 from linkanim.workshop.parts import Kit, kit
 from linkanim.workshop.request import make
 from linkanim.workshop.sweep import Cycle
@@ -31,7 +31,7 @@ SETS = st.sets(st.integers(0, NODES - 1), min_size=1, max_size=3)
 
 
 def choice(one: set[int], other: set[int]) -> Choice:
-    return node_set(one), node_set(other)
+    return NodeSet.of(one), NodeSet.of(other)
 
 
 def holds(levels: Sequence[int], choices: list[Choice]) -> bool:
@@ -166,9 +166,8 @@ class Tried:
     """A scene's plates and pins in every order of layers, what meets being found by shapely at 720 phases."""
 
     def __init__(self, made: MadeLinkage, parts: Kit) -> None:
-        pins = (MadePin(pin.name, pin.frame, pin.at, 0, 0, None, pin.plates) for pin in parts.pins)
         layer = (0,) * len(parts.plates)
-        flat = replace(made, refused=None, plates=parts.plates, layer=layer, pins=tuple(pins))
+        flat = replace(made, refused=None, plates=parts.plates, layer=layer, pins=parts.pins)
         described: Any = flat.as_object()
         plates = [flat._part(number) for number in range(len(parts.plates))]
         solids = Solids(made.scene, described, 720)
@@ -246,4 +245,4 @@ def test_the_clashes_to_blame_are_all_needed() -> None:
     assert isinstance(found, Unstackable)
     assert len(found.clashes) == 4
     assert found.bridged == ()
-    assert all(f"{clash.one} would meet {clash.other}" in made.refused for clash in found.clashes)
+    assert all(f"{one} would meet {other}" in made.refused for one, other, _ in found.clashes)

@@ -200,7 +200,7 @@ def outlines(made: MadeLinkage) -> list[Any]:
 def test_sizes_that_are_asked_for_are_kept() -> None:
     made = make(load("crank-rocker"), bar=12.0, hole=4.0, thickness=5.0, clearance=0.3, way="print")
     crank = next(part for part in made.plates if part.name == "crank")
-    assert {hole.diameter for hole in crank.holes} == {4.0}
+    assert {2 * hole.radius for hole in crank.holes} == {4.0}
     assert crank.radius == 6.0
     assert made.sizes.thickness == 5.0
     found: Any = made.as_object()

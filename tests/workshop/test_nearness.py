@@ -10,7 +10,6 @@ import pytest
 from linkanim.picture.layered import Frame
 from linkanim.scenes import load
 from linkanim.workshop import sweep
-from linkanim.workshop.layers import pieces_of
 from linkanim.workshop.parts import kit
 from linkanim.workshop.request import make
 from linkanim.workshop.sweep import GROUND, Cycle, MovingPiece, hulls_apart
@@ -31,7 +30,7 @@ def test_coarse_steps_find_what_dense_samples_do(name: str, monkeypatch: pytest.
     scene = load(name)
     sizes = make(scene).sizes
     fine = Cycle(scene, sizes.scale)
-    pieces = pieces_of(kit(fine, sizes), sizes.hole)
+    pieces = kit(fine, sizes).pieces(sizes.hole)
     pairs = [
         (i, j, GAP)
         for i, j in combinations(range(1, len(pieces)), 2)
@@ -53,10 +52,10 @@ def test_a_way_that_speeds_do_not_account_for_counts_as_straying() -> None:
     jumped = sweep._Placed((np.array([0, 3 + 4j]), still, still), (still + 1, still, still))
     piece = MovingPiece(GROUND, ((0j, 10 + 0j),), 1.0)
     first, last = np.array([0]), np.array([1])
-    assert sweep._stray(piece, jumped, first, last, 0.1) == [5.0]
+    assert piece.stray(jumped, first, last, 0.1) == [5.0]
     turned = sweep._Placed((still, still, still), (np.array([1, 1j]), still, still))
     # its far end, 10 from the origin, went a quarter turn
-    assert sweep._stray(piece, turned, first, last, 0.1) == pytest.approx([10 * 2**0.5])
+    assert piece.stray(turned, first, last, 0.1) == pytest.approx([10 * 2**0.5])
 
 
 def test_where_it_is_nearest_is_the_phase_that_is_told() -> None:
