@@ -19,7 +19,7 @@ from linkanim.picture.text import subscripted
 from linkanim.words import said
 from linkanim.workshop.made import MadeLinkage
 from linkanim.workshop.nesting import FOOT, MARGIN, nested
-from linkanim.workshop.parts import Pin, Plate
+from linkanim.workshop.parts import MadePin, Plate
 from linkanim.workshop.shapes import Outline, arc, box, moved, polygon, rounded, sides, upright
 
 if TYPE_CHECKING:
@@ -437,7 +437,7 @@ def _head(made: MadeLinkage) -> float:
     return made.sizes.hole + made.sizes.wall / 2
 
 
-def _end_plate(made: MadeLinkage, pin: Pin, layer: int) -> int | None:
+def _end_plate(made: MadeLinkage, pin: MadePin, layer: int) -> int | None:
     """Return the plate in a layer that holds a pin's head or cap; None for a slot, and for a dowel."""
     if pin.stuck:
         return None

@@ -19,7 +19,7 @@ from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.words import name_said, said
 from linkanim.workshop.made import MadeLinkage
-from linkanim.workshop.parts import Pin
+from linkanim.workshop.parts import MadePin
 from linkanim.workshop.shapes import polygon
 
 _CHORD = 0.05
@@ -71,7 +71,7 @@ class Drawn:
         pale = self.new is not None and number not in self.new
         return mixed(colour, theme.background, 0.72 if pale and layer else 0.0)
 
-    def _pins(self) -> list[tuple[Pin, complex]]:
+    def _pins(self) -> list[tuple[MadePin, complex]]:
         """Return the pins of the shown plates, and their places, in mm."""
         shown = set(self._order())
         places = zip(self.made.pins, self.made.pinned(self.phase), strict=True)

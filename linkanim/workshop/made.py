@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 from itertools import count
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.words import name_said, said, said_many
 from linkanim.workshop.layers import Budget, Stack, Unstackable, can_be_stacked, stacked
 from linkanim.workshop.media import Size, Way
-from linkanim.workshop.parts import Band, Cut, Kit, Pin, Plate, Sizes, kit, refuse_thin
+from linkanim.workshop.parts import Band, Cut, Kit, MadePin, Plate, Sizes, kit, refuse_thin
 from linkanim.workshop.shapes import box, polygon
 from linkanim.workshop.sweep import GROUND, Cycle
 
@@ -52,7 +52,7 @@ class MadeLinkage:
     sheet: Size
     plates: tuple[Plate, ...] = ()
     layer: tuple[int, ...] = ()
-    pins: tuple[Pin, ...] = ()
+    pins: tuple[MadePin, ...] = ()
     bands: tuple[Band, ...] = ()
     fewest: bool = True
     refused: str | None = None
@@ -176,7 +176,7 @@ class MadeLinkage:
             "cuts": [[_pair(point) for point in polygon(teeth.outline(0.0))] for teeth in inside],
         }
 
-    def _pin(self, pin: Pin) -> dict[str, object]:
+    def _pin(self, pin: MadePin) -> dict[str, object]:
         return {
             "joint": pin.name,
             "from": pin.low,
@@ -264,7 +264,7 @@ def _is_stackable(cycle: Cycle, sizes: Sizes, work: Budget) -> bool:
     return can_be_stacked(cycle, parts, work, hole=sizes.hole, gap=sizes.gap)
 
 
-def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> Pin:
+def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> MadePin:
     """Return a pin with its ends, and with a ring in each layer between its plates that has room for one."""
     pin, hangs = parts.pins[number], number in stack.hanging
     plates = tuple(plate for plate in pin.plates if plate or not hangs)
@@ -320,7 +320,7 @@ def _bridged(cycle: Cycle, made: MadeLinkage) -> MadeLinkage:
     ground = replace(ground, holes=remaining + stands, corners=tuple(dict.fromkeys((*others, *posts))))
     pins = [pin._replace(plates=(*pin.plates, number)) if pin.name in hanging else pin for pin in made.pins]
     pins += [
-        Pin(f"post {n}", GROUND, place, (0, number), stuck=True, high=top, side="below")
+        MadePin(f"post {n}", GROUND, place, (0, number), stuck=True, high=top, side="below")
         for n, place in enumerate(posts, start=1)
     ]
     plates, layer = (ground, *made.plates[1:], bridge), (*made.layer, top)

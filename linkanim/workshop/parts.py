@@ -188,7 +188,7 @@ class Plate:
         return places[int(room.argmax())]
 
 
-class Pin(NamedTuple):
+class MadePin(NamedTuple):
     """A pin through `plates` (numbers) that moves with the point `at` of a frame.
 
     It runs in a slot of the plates that are `sliding`. A dowel, which keeps plates from turning on each
@@ -226,7 +226,7 @@ class Kit(NamedTuple):
     """
 
     plates: tuple[Plate, ...]
-    pins: tuple[Pin, ...]
+    pins: tuple[MadePin, ...]
     bands: tuple[Band, ...]
     groups: tuple[tuple[int, ...], ...]
     paired: frozenset[tuple[int, int]]
@@ -320,7 +320,7 @@ class _KitBuilder:
         self.struts: tuple[Spring | Damper, ...] = (*self.linkage.springs, *self.linkage.dampers)
         self.hung = {name for strut in self.struts for name in strut.between}
         self.drafts: list[_PlateDraft] = []
-        self.dowels: list[Pin] = []
+        self.dowels: list[MadePin] = []
         self.one_layer: list[tuple[int, int]] = []
 
     def kit(self) -> Kit:
@@ -535,7 +535,7 @@ class _KitBuilder:
 
     def _dowel(self, frame: Frame, at: complex, plates: tuple[int, int]) -> None:
         name = f"dowel {len(self.dowels) + 1}"
-        self.dowels.append(Pin(name, frame, at, plates, stuck=True))
+        self.dowels.append(MadePin(name, frame, at, plates, stuck=True))
 
     def _used(self, number: int) -> list[str]:
         """Return the joints of a plate that are in use: by another plate, a band or a pencil."""
@@ -547,7 +547,7 @@ class _KitBuilder:
             if name in wanted or any(one.has(name) for one in others)
         ]
 
-    def _pins(self) -> Iterator[Pin]:
+    def _pins(self) -> Iterator[MadePin]:
         """Yield a pin for each joint at which plates meet; joints that always coincide share one."""
         paths: dict[str, list[str]] = {}
         for name in (joint.name for joint in self.linkage.joints):
@@ -558,9 +558,9 @@ class _KitBuilder:
             plates = [n for n, draft in enumerate(self.drafts) if any(map(draft.has, names))]
             if len(plates) > 1:
                 sliding = tuple(n for n in plates if not self.drafts[n].places.keys() & set(names))
-                yield Pin(first, Frame(first), 0j, tuple(plates), sliding)
+                yield MadePin(first, Frame(first), 0j, tuple(plates), sliding)
 
-    def _plate(self, number: int, pins: Sequence[Pin]) -> Plate:
+    def _plate(self, number: int, pins: Sequence[MadePin]) -> Plate:
         """Return a plate with its holes: for pins, dowels, the eyes of bands, and a pencil."""
         draft, sizes = self.drafts[number], self.sizes
         holes: list[Cut] = []
@@ -599,7 +599,7 @@ class _KitBuilder:
             draft.teeth,
         )
 
-    def _seen(self, pin: Pin, frame: Frame) -> complex:
+    def _seen(self, pin: MadePin, frame: Frame) -> complex:
         """Return the place of a pin in a frame in which it does not move."""
         if pin.frame == frame:
             return pin.at

@@ -25,7 +25,7 @@ from linkanim.units import significant
 from linkanim.words import name_said, row_said, said, said_as, said_many, sentences, to_say
 from linkanim.workshop.drawing import Drawn
 from linkanim.workshop.made import MadeLinkage
-from linkanim.workshop.parts import Pin
+from linkanim.workshop.parts import MadePin
 
 _FIGURE, _PLAN, _SIDE, _EXPLODED, _STEP = (820, 440), (820, 500), (820, 260), (820, 560), (440, 300)
 _QUESTIONS = 4
@@ -334,7 +334,7 @@ def _level(layer: int) -> str:
     return str(layer) if layer else name_said("ground")
 
 
-def _named(pins: Sequence[Pin]) -> str:
+def _named(pins: Sequence[MadePin]) -> str:
     """Return pins in words."""
     names = [subscripted(pin.name) for pin in pins]
     return said_many("pin {names}", "pins {names}", len(names), names=row_said(names))

@@ -9,7 +9,7 @@ speeds do not explain. Where that bound does not settle whether two pieces stay 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
