@@ -2,16 +2,17 @@
 
 From the ground up; a module imports from those before it only:
 
-    exits            how a command ends: its exit code, and one line on stderr
-    options          the arguments of each command, and what their texts mean
-    picture_options  the options that commands which write pictures share
-    alternative      what a picture shows, in a paragraph beside it
-    letters          which letters of what was written no font has
-    progress         a bar that says how far long work is
-    answers          answers of a synthesis, as files and as a table
-    tolerances       how far a scene may be off, as tables, an object and a chart
-    command_table    every command: what it does, what it takes, which file does its work
-    commands         a command a file: what it does once its options are read
+    exits              how a command ends: its exit code, and one line on stderr
+    options            the arguments of each command, and what their texts mean
+    picture_arguments  those of the commands that show pictures, record them or make parts
+    picture_options    the options that commands which write pictures share
+    alternative        what a picture shows, in a paragraph beside it
+    letters            which letters of what was written no font has
+    progress           a bar that says how far long work is
+    answers            answers of a synthesis, as files and as a table
+    tolerances         how far a scene may be off, as tables, an object and a chart
+    command_table      every command: what it does, what it takes, which file does its work
+    commands           a command a file: what it does once its options are read
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from linkanim import __version__
-from linkanim.cli.options import ARGUMENTS, Parser, join_negative
+from linkanim.cli.options import ARGUMENTS, Argument, Parser, join_negative
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
@@ -87,9 +87,16 @@ def build(only: str | None = None) -> Parser:
         about, *examples = COMMANDS[name]
         text = f"{about[0].upper()}{about[1:]}."
         made = add.add_parser(name, help=about, description=text, examples=examples)
-        for argument in ARGUMENTS[name]:
+        for argument in _arguments(name):
             argument(made)
     return parser
+
+
+def _arguments(command: str) -> tuple[Argument, ...]:
+    """Return what a command takes; only one that shows pictures loads the looks that they have."""
+    if command in ARGUMENTS:
+        return ARGUMENTS[command]
+    return import_module("linkanim.cli.picture_arguments").ARGUMENTS[command]  # type: ignore[no-any-return]
 
 
 class Versions(Action):

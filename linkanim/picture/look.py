@@ -210,7 +210,7 @@ class Look:
         Option(
             "unit",
             "the unit of lengths, and so of velocities (default: the file's)",
-            commands=("play", "record", "solve", "draw", "chart", "explain", "report", "share"),
+            commands=("play", "record", "draw", "chart", "explain", "report", "share"),
         ),
         steps=LENGTH_UNITS,
         answers=tuple(f"lengths in {unit}" for unit in LENGTH_UNITS),

@@ -17,7 +17,8 @@ from linkanim.cli.alternative import alternative, plain
 from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
 from linkanim.cli.letters import tell_of_scene
-from linkanim.cli.options import DEFAULT, PRESETS, Preset, inputs_of
+from linkanim.cli.options import inputs_of
+from linkanim.cli.picture_arguments import DEFAULT, PRESETS, Preset
 from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
