@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from linkanim.explain.documents import MARKDOWN, document
+from linkanim.explain.documents import MARKDOWN
 from linkanim.explain.exercise import exercise
 from linkanim.explain.formula import LATEX, Symbol
 from linkanim.explain.solution import PoseRequest, Solution, solution
@@ -72,7 +72,7 @@ def _of_tables(found: Solution) -> Iterator[Shown]:
 
 
 def _shown(found: Solution, figured: Figured) -> Iterator[Shown]:
-    text, _, results = document(found, MARKDOWN).partition("## All results")
+    text, _, results = MARKDOWN.document(found).partition("## All results")
     yield from _of_figure(figured)
     yield from _of_text(text, "text")
     yield from _of_text(results, "results")

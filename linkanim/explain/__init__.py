@@ -9,7 +9,6 @@ From the ground up; a module imports from those before it only:
     whole_motion  the chapters on how far the input goes and where the output turns back
     forces        what each body carries: free bodies, their equations, the solution
     solution      the chapters of a pose, in order
-    free          a body drawn free: its joints, the forces on it, its couples
     questions     what an exam asks about a pose, each question with the steps that answer it
     tikz          the loops' vectors and free bodies in TikZ
     documents     a solution as HTML, LaTeX or Markdown

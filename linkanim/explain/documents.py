@@ -9,14 +9,14 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from base64 import b64encode
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, reduce
 from html import escape
 from itertools import chain, groupby, pairwise
 from pathlib import Path
-from typing import NamedTuple
 from unicodedata import east_asian_width
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
@@ -27,18 +27,15 @@ from linkanim.explain.steps import (
     Equation,
     Given,
     Item,
-    LargeSystem,
     Outcome,
     Step,
     System,
     Unknown,
     ValueLine,
-    Words,
     decimals,
     rounded,
 )
 from linkanim.explain.tikz import free_tikz, tikz
-from linkanim.frozen import frozen
 from linkanim.words import html_language, said, said_many
 
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.
@@ -47,11 +44,8 @@ _SHORT, _MIDDLING = 2, 6
 """The most symbols of a formula in one row with its numbers and its value, or in one with its value."""
 
 
-class EquationRow(NamedTuple):
-    """One row of an aligned equation: what stands left of the equals sign, and what stands right of it."""
-
-    left: str
-    right: str
+EquationRow = tuple[str, str]
+"""One row of an aligned equation: what stands left of the equals sign, and what stands right of it."""
 
 
 def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[EquationRow]:
@@ -60,16 +54,9 @@ def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[Equation
         case ValueLine():
             yield from _line(item, how, blank)
         case Equation():
-            yield EquationRow(typeset(item.left, how), typeset(item.right, how))
+            yield typeset(item.left, how), typeset(item.right, how)
         case System():
             yield from _system(item, how, blank)
-        case LargeSystem() if not blank:
-            typeset_rows = [[typeset(entry, how, numbers=True) for entry in row] for row in item.values]
-            unknowns = how.matrix([[how.symbol(unknown)] for unknown in item.unknowns])
-            yield EquationRow(
-                how.matrix([row[:-1] for row in typeset_rows]) + unknowns,
-                how.matrix([row[-1:] for row in typeset_rows]),
-            )
 
 
 def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
@@ -85,20 +72,19 @@ def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
     for begin, end in pairwise(
         [0, *range(len(sides) % together or together, len(sides), together), len(sides)]
     ):
-        yield EquationRow(left, reduce(lambda a, b: how.infix("=", a, b), sides[begin:end]))
+        yield left, reduce(lambda a, b: how.infix("=", a, b), sides[begin:end])
         left = ""
 
 
 def _system(system: System, how: Notation, blank: bool) -> Iterator[EquationRow]:
     unknowns = how.matrix([[how.symbol(unknown)] for unknown in system.unknowns])
-    ways = [(system.formulas, False), (system.formulas, True), (system.values, True)]
-    if not system.worked_out:
-        del ways[1]
-    for entries, numbers in ways[:1] if blank else ways:
+    ways = [(system.formulas, False)] if system.formulas else []
+    if not blank:
+        worked_out = any(entry.operation != "leaf" for row in system.formulas for entry in row)
+        ways += [(system.formulas, True)] * worked_out + [(system.values, True)]
+    for entries, numbers in ways:
         set_ = [[typeset(entry, how, numbers=numbers) for entry in row] for row in entries]
-        yield EquationRow(
-            how.matrix([row[:2] for row in set_]) + unknowns, how.matrix([row[2:] for row in set_])
-        )
+        yield how.matrix([row[:-1] for row in set_]) + unknowns, how.matrix([row[-1:] for row in set_])
 
 
 # A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
@@ -173,69 +159,26 @@ def math_style() -> str:
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)((?:&#x27;)*)$")
 
 
-class QuestionParts(NamedTuple):
-    """The markup of a question: its number, words, marks, hint, answers, and formulas in place of room."""
-
-    number: int
-    text: str
-    marks: int
-    hint: str
-    answers: str
-    formulas: str
+def _no_figure(_: Solution) -> str:
+    return ""
 
 
-def _marks(one: QuestionParts) -> str:
-    return said_many("{count} mark", "{count} marks", one.marks)
+def _marks(count: int) -> str:
+    return said_many("{count} mark", "{count} marks", count)
 
 
-def _plain_question(one: QuestionParts) -> str:
-    """Return a question in Markdown."""
-    head = f"**{one.number}.** {one.text} ({_marks(one)})"
-    return "\n\n".join(part for part in (head, one.hint, one.formulas, one.answers) if part)
+_DERIVED = ("Positions", "The same by the half-angle form", "Kinematic coefficients")
+"""The chapters of a solution that are a derivation, in symbols alone."""
 
 
-@frozen
-class DocumentForm:
-    """How one kind of document is written; names of joints are marked in headings and in text.
-
-    `listed` sets a list of formulas with the words for each. `figure` draws the loops, `construction` how the
-    linkage was made, `free` its bodies free; a page leaves them to a module that prints pictures. `steps`
-    joins the steps of a chapter. `new_page` begins a page.
-
-    Of an exercise, `beside` sets what is given beside the figure, `question` a question, and `answers` the
-    numbers to be found, with room to write; `named` is the line for name and marks, by the most of them, and
-    `sheet` makes its pages.
-    """
-
-    how: Notation
-    page: Callable[[str, str], str]
-    heading: Callable[[int, str], str]
-    text: Callable[[str], str]
-    paragraph: Callable[[str], str]
-    inline: Callable[[str], str]
-    aligned: Callable[[list[EquationRow]], str]
-    listed: Callable[[list[tuple[str, str]]], str]
-    figure: Callable[[Solution], str] = lambda _: ""
-    construction: Callable[[Solution], str] = lambda _: ""
-    free: Callable[[Solution], str] = lambda _: ""
-    steps: Callable[[list[str]], str] = "\n\n".join
-    new_page: str = ""
-    beside: Callable[[str, str], str] = lambda one, other: "\n\n".join(filter(None, (one, other)))
-    question: Callable[[QuestionParts], str] = _plain_question
-    answers: Callable[[list[str]], str] = "\n\n".join
-    named: Callable[[int], str] = str
-    sheet: Callable[[list[str]], str] = "\n\n".join
+def _in_symbols(item: Item) -> Item:
+    """Return an item without its numbers: a line as an equation."""
+    return Equation(item.value, item.formula) if isinstance(item, ValueLine) else item
 
 
-def document(solution: Solution, form: DocumentForm) -> str:
-    """Return a worked solution as a document of this form."""
-    parts = [
-        form.heading(1, solution.title),
-        where_words(solution, form),
-        *chapters(solution, form),
-        *_results(solution, form),
-    ]
-    return form.page(solution.title, "\n\n".join(part for part in parts if part))
+def _sort(item: Item) -> type[Item]:
+    """Return an item's sort: neighbours of one sort are set in one block; a line counts as an equation."""
+    return Equation if isinstance(item, ValueLine) else type(item)
 
 
 def _by_owner(solution: Solution) -> Iterator[Outcome]:
@@ -247,89 +190,158 @@ def _by_owner(solution: Solution) -> Iterator[Outcome]:
     return chain.from_iterable(owners.values())
 
 
-def _results(solution: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield the list of all results, with its heading."""
-    yield form.heading(2, said("All results"))
-    solved = solution.solved
-    yield form.listed([listed(short(one.value, solved), one.unit, "", form) for one in _by_owner(solution)])
+class DocumentForm(ABC):
+    """One kind of document: how its parts are written, and what of a solution stands in it.
 
+    Names of joints are marked in headings and in text. `figure` draws the loops, `construction` how the
+    linkage was made, `free` its bodies free: a page leaves them to a module that prints pictures.
+    """
 
-def where_words(solution: Solution, form: DocumentForm) -> str:
-    """Return the paragraph that says where the input is."""
-    called, place = solution.where
-    symbol = form.text(called) if isinstance(called, str) else form.inline(form.how.symbol(called))
-    return form.paragraph(said("At {place}.", place=f"{symbol} = {form.text(place)}"))
+    new_page = ""
+    """What begins a page."""
 
+    def __init__(
+        self,
+        how: Notation,
+        figure: Callable[[Solution], str] = _no_figure,
+        construction: Callable[[Solution], str] = _no_figure,
+        free: Callable[[Solution], str] = _no_figure,
+    ) -> None:
+        self.how, self.figure, self.construction, self.free = how, figure, construction, free
 
-def chapters(solution: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:
-    """Yield the parts of a solution; if `blank`, its numbers are left open."""
-    for chapter in solution.chapters:
-        yield form.heading(2, chapter.title)
-        drawn = form.figure(solution) if chapter is solution.loop_chapter else ""
-        if chapter is solution.synthesis_chapter:
-            yield form.construction(solution)
-        if chapter.title == said(FORCES) and solution.bodies:
-            yield form.free(solution)
-        written = ["\n\n".join(step_parts(step, form, blank)) for step in chapter.steps]
-        yield form.steps([part for part in (drawn, *written) if part])
+    @abstractmethod
+    def page(self, title: str, body: str) -> str:
+        """Return a whole document."""
 
+    @abstractmethod
+    def heading(self, level: int, text: str) -> str:
+        """Return a heading."""
 
-_DERIVED = ("Positions", "The same by the half-angle form", "Kinematic coefficients")
-"""The chapters of a solution that are a derivation, in symbols alone."""
+    @abstractmethod
+    def text(self, words: str) -> str:
+        """Return words as markup."""
 
+    @abstractmethod
+    def aligned(self, rows: list[EquationRow]) -> str:
+        """Return the rows of equations, one below the other."""
 
-def derivation(solution: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield the parts of the derivation in symbols: positions, half angles and the differentiated loops."""
-    titles = [*map(said, _DERIVED)]
-    for chapter in solution.chapters:
-        if chapter.title in titles:
-            yield form.heading(3, chapter.title)
-            steps = (
-                replace(step, items=tuple(map(_in_symbols, step.items)))
-                for step in chapter.steps
-                if step.title != said(INPUT_TITLE)
-            )
-            yield form.steps(["\n\n".join(step_parts(step, form, blank=True)) for step in steps])
+    @abstractmethod
+    def listed(self, items: list[tuple[str, str]]) -> str:
+        """Return a list of formulas with the words for each."""
 
+    def paragraph(self, markup: str) -> str:
+        """Return a paragraph."""
+        return markup
 
-def _in_symbols(item: Item) -> Item:
-    """Return an item without its numbers: a line as an equation."""
-    return Equation(item.value, item.formula) if isinstance(item, ValueLine) else item
+    def inline(self, formula: str) -> str:
+        """Return a formula within words."""
+        return f"${formula}$"
 
+    def joined(self, steps: list[str]) -> str:
+        """Return the steps of a chapter as one."""
+        return "\n\n".join(steps)
 
-def step_parts(step: Step, form: DocumentForm, blank: bool) -> Iterator[str]:
-    """Yield the parts of one step."""
-    if step.title:
-        yield form.heading(3, step.title)
-    for _, items in groupby(step.items, _sort):
-        yield from set_items([*items], form, blank)
+    # Of an exercise.
 
+    def beside(self, figure: str, given: str) -> str:
+        """Return the figure, and what is given beside it."""
+        return "\n\n".join(filter(None, (figure, given)))
 
-def _sort(item: Item) -> type[Item]:
-    """Return an item's sort: neighbours of one sort are set in one block; a line counts as an equation."""
-    return Equation if isinstance(item, ValueLine) else type(item)
+    def question(self, number: int, text: str, marks: int, hint: str, answers: str, formulas: str) -> str:
+        """Return a question, with the numbers to be found; `formulas` stand in place of room to write."""
+        head = f"**{number}.** {text} ({_marks(marks)})"
+        return "\n\n".join(part for part in (head, hint, formulas, answers) if part)
 
+    def answers(self, formulas: list[str]) -> str:
+        """Return the numbers to be found, with room to write."""
+        return self.listed([(one, "") for one in formulas])
 
-def set_items(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
-    """Yield the parts of neighbours of one sort: equations in one block, sentences one by one."""
-    if given := [item for item in items if isinstance(item, Given)]:
-        yield form.listed([listed(item.value, item.unit, item.words, form) for item in given])
-    if set_rows := [row for item in items for row in rows(item, form.how, blank=blank)]:
-        yield form.aligned(set_rows)
-    for item in items:
-        if isinstance(item, Words):
-            yield form.paragraph(form.text(item.text))
-        elif isinstance(item, Unknown):
-            symbols = (form.inline(typeset(e, form.how)) for e in item.symbols)
-            yield form.paragraph(
-                said("{what}: {these}", what=form.text(item.words), these=", ".join(symbols))
-            )
+    def named(self, most: int) -> str:
+        """Return the line for name and marks, by the most of them."""
+        return " ".join(f"{one}: ____" for one in _signed(most))
 
+    def sheet(self, pages: list[str]) -> str:
+        """Return the pages of a sheet as one."""
+        return "\n\n".join(pages)
 
-def listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[str, str]:
-    """Return an entry of a list: a symbol = a number with its unit, and words."""
-    number = form.how.number(value.shown, False) + form.how.unit(unit)
-    return form.inline(form.how.infix("=", typeset(value, form.how), number)), words
+    # What of a solution stands in a document.
+
+    def document(self, solution: Solution) -> str:
+        """Return a worked solution as a document."""
+        parts = [
+            self.heading(1, solution.title),
+            self.where(solution),
+            *self.chapters(solution),
+            *self._results(solution),
+        ]
+        return self.page(solution.title, "\n\n".join(part for part in parts if part))
+
+    def _results(self, solution: Solution) -> Iterator[str]:
+        """Yield the list of all results, with its heading."""
+        yield self.heading(2, said("All results"))
+        solved = solution.solved
+        yield self.listed([self.entry(short(one.value, solved), one.unit) for one in _by_owner(solution)])
+
+    def where(self, solution: Solution) -> str:
+        """Return the paragraph that says where the input is."""
+        called, place = solution.where
+        symbol = self.text(called) if isinstance(called, str) else self.inline(self.how.symbol(called))
+        return self.paragraph(said("At {place}.", place=f"{symbol} = {self.text(place)}"))
+
+    def chapters(self, solution: Solution) -> Iterator[str]:
+        """Yield the parts of a solution."""
+        for chapter in solution.chapters:
+            yield self.heading(2, chapter.title)
+            drawn = self.figure(solution) if chapter is solution.loop_chapter else ""
+            if chapter is solution.synthesis_chapter:
+                yield self.construction(solution)
+            if chapter.title == said(FORCES) and solution.bodies:
+                yield self.free(solution)
+            yield self.steps(chapter.steps, drawn=drawn)
+
+    def derivation(self, solution: Solution) -> Iterator[str]:
+        """Yield the parts of the derivation in symbols: positions, half angles, differentiated loops."""
+        titles = [*map(said, _DERIVED)]
+        for chapter in solution.chapters:
+            if chapter.title in titles:
+                yield self.heading(3, chapter.title)
+                steps = (
+                    replace(step, items=tuple(map(_in_symbols, step.items)))
+                    for step in chapter.steps
+                    if step.title != said(INPUT_TITLE)
+                )
+                yield self.steps(steps, blank=True)
+
+    def steps(self, steps: Iterable[Step], *, blank: bool = False, drawn: str = "") -> str:
+        """Return steps, behind a figure if there is one; if `blank`, their numbers are left open."""
+        return self.joined([part for part in (drawn, *(self.step(one, blank) for one in steps)) if part])
+
+    def step(self, step: Step, blank: bool = False) -> str:
+        """Return one step."""
+        parts = [self.heading(3, step.title)] if step.title else []
+        for _, items in groupby(step.items, _sort):
+            parts += self.set_items([*items], blank)
+        return "\n\n".join(parts)
+
+    def set_items(self, items: list[Item], blank: bool = False) -> Iterator[str]:
+        """Yield the parts of neighbours of one sort: equations in one block, sentences one by one."""
+        if given := [item for item in items if isinstance(item, Given)]:
+            yield self.listed([self.entry(item.value, item.unit, item.words) for item in given])
+        if set_rows := [row for item in items for row in rows(item, self.how, blank=blank)]:
+            yield self.aligned(set_rows)
+        for item in items:
+            if isinstance(item, str):
+                yield self.paragraph(self.text(item))
+            elif isinstance(item, Unknown):
+                symbols = (self.inline(typeset(e, self.how)) for e in item.symbols)
+                yield self.paragraph(
+                    said("{what}: {these}", what=self.text(item.words), these=", ".join(symbols))
+                )
+
+    def entry(self, value: Formula, unit: str, words: str = "") -> tuple[str, str]:
+        """Return an entry of a list: a symbol = a number with its unit, and words."""
+        number = self.how.number(value.shown, False) + self.how.unit(unit)
+        return self.inline(self.how.infix("=", typeset(value, self.how), number)), words
 
 
 def short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
@@ -344,15 +356,6 @@ def short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
     tried = (usual, min(usual + 1, there), *range(usual - 1, -1, -1))
     right = (n for n in tried if abs(float(rounded(true, n)) - value.value) <= HALF * 10**-n)
     return replace(value, shown=rounded(true, next(right, 0)))
-
-
-def _html_page(title: str, body: str) -> str:
-    style = _STYLE + _SHEET if "class='page'" in body else _STYLE
-    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{style}{math_style()}</style>"
-    lights = "\n".join(map(str.strip, _LIGHTS.splitlines()[2:]))
-    script = f"<script>{lights}</script>\n" if " data-i=" in body else ""
-    inside = f"<body>\n<main>\n{body}\n</main>\n{script}</body>"
-    return f"<!doctype html>\n<html lang='{html_language()}'><head>{head}</head>{inside}</html>\n"
 
 
 _LIGHTS = r"""
@@ -386,47 +389,9 @@ _LIGHTS = r"""
 """
 
 
-def _html_words(text: str) -> str:
-    return MARKED.sub(lambda part: _INDEXED.sub(r"<sub>\1</sub>\2", part[1]), escape(text))
-
-
-def _html_aligned(aligned: list[EquationRow]) -> str:
-    cells = "".join(f"<mtr><mtd>{row.left}</mtd><mtd><mo>=</mo>{row.right}</mtd></mtr>" for row in aligned)
-    return f"<math display=block><mtable class=rows displaystyle=true>{cells}</mtable></math>"
-
-
-def _html_listed(listed: list[tuple[str, str]]) -> str:
-    items = "".join(f"<li>{formula} {_html_words(words)}</li>" for formula, words in listed)
-    kind = "given" if any(words for _, words in listed) else "given results"
-    return f"<ul class='{kind}'>{items}</ul>"
-
-
 _ROW, _TAG = re.compile(r"<mtr>(.*?)</mtr>", re.S), re.compile(r"<[^>]*>|&[^;]*;")
 _HALF_LINE = 62
 """The most letters of a formula on half a page's width."""
-
-
-def _html_steps(steps: list[str]) -> str:
-    """Return a chapter's steps; on paper, steps with short formulas are two side by side."""
-    cells = []
-    for step in steps:
-        # a step with nothing but words is wide
-        longest = max((len(_TAG.sub("", row)) for row in _ROW.findall(step)), default=_HALF_LINE + 1)
-        drawn = step.startswith("<figure")
-        kind = "drawn" if drawn else "wide" if longest > _HALF_LINE else "short"
-        rows = f" style='grid-row: span {max(len(steps) - 1, 1)}'" if drawn else ""
-        cells.append(f"<div class='step {kind}'{rows}>\n{step}\n</div>")
-    return "<div class='steps'>\n" + "\n".join(cells) + "\n</div>"
-
-
-def _html_question(one: QuestionParts) -> str:
-    """Return a question: on paper those of a page share the room that is left, by their marks."""
-    marks = f"<span class='marks'>{_marks(one)}</span>"
-    head = f"<p>{marks}<b>{one.number}</b> {one.text}</p>"
-    hint = f"<p class='hint'>{one.hint}</p>" if one.hint else ""
-    room = one.formulas or "<div class='room'></div>"
-    grows = "" if one.formulas else f" style='flex-grow: {one.marks}'"
-    return f"<div class='question'{grows}>\n{head}{hint}\n{room}\n{one.answers}\n</div>"
 
 
 _LIT = """<style>
@@ -447,6 +412,10 @@ svg g.lit path, svg text.lit { fill: #e6007e; }
 """
 
 
+def _html_words(text: str) -> str:
+    return MARKED.sub(lambda part: _INDEXED.sub(r"<sub>\1</sub>\2", part[1]), escape(text))
+
+
 def _lit_symbol(symbol: Symbol) -> str:
     """Return a symbol in MathML; of a force or moment it says which arrow it goes with."""
     written = MATHML.symbol(symbol)
@@ -462,30 +431,81 @@ def _signed(most: int) -> tuple[str, str, str]:
 
 
 _PULLS = frozenset("FNQZCM")
-HTML = DocumentForm(
-    how=MATHML,
-    page=_html_page,
-    heading=lambda level, text: f"<h{level}>{_html_words(text)}</h{level}>",
-    text=_html_words,
-    paragraph=lambda markup: f"<p>{markup}</p>",
-    inline=lambda formula: f"<math>{formula}</math>",
-    aligned=_html_aligned,
-    listed=_html_listed,
-    steps=_html_steps,
-    new_page="<div class='key'></div>",
-    beside=lambda one, other: f"<div class='task'>\n{one}\n<div>{other}</div>\n</div>",
-    question=_html_question,
-    answers=lambda found: f"<p class='answers'>{''.join(f'<span>{one}</span>' for one in found)}</p>",
-    named=lambda most: f"<p class='signed'>{''.join(f'<span>{one}</span>' for one in _signed(most))}</p>",
-    sheet=lambda pages: "\n".join(f"<div class='page'>\n{one}\n</div>" for one in pages),
-)
 
-LIT = replace(
-    HTML,
-    how=replace(MATHML, symbol=_lit_symbol),
-    page=lambda title, body: HTML.page(title, f"{body}\n{_LIT}"),
-)
-"""A page in which a symbol of a force lights up its arrows, and an arrow its symbols."""
+
+class _Html(DocumentForm):
+    new_page = "<div class='key'></div>"
+
+    def __init__(
+        self,
+        *figures: Callable[[Solution], str],
+        lit: bool = False,
+    ) -> None:
+        super().__init__(replace(MATHML, symbol=_lit_symbol) if lit else MATHML, *figures)
+        self._last = f"\n{_LIT}" if lit else ""
+
+    def page(self, title: str, body: str) -> str:
+        style = _STYLE + _SHEET if "class='page'" in body else _STYLE
+        head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{style}{math_style()}</style>"
+        lights = "\n".join(map(str.strip, _LIGHTS.splitlines()[2:]))
+        script = f"<script>{lights}</script>\n" if " data-i=" in body else ""
+        inside = f"<body>\n<main>\n{body}{self._last}\n</main>\n{script}</body>"
+        return f"<!doctype html>\n<html lang='{html_language()}'><head>{head}</head>{inside}</html>\n"
+
+    def heading(self, level: int, text: str) -> str:
+        return f"<h{level}>{_html_words(text)}</h{level}>"
+
+    def text(self, words: str) -> str:
+        return _html_words(words)
+
+    def paragraph(self, markup: str) -> str:
+        return f"<p>{markup}</p>"
+
+    def inline(self, formula: str) -> str:
+        return f"<math>{formula}</math>"
+
+    def aligned(self, rows: list[EquationRow]) -> str:
+        cells = "".join(f"<mtr><mtd>{left}</mtd><mtd><mo>=</mo>{right}</mtd></mtr>" for left, right in rows)
+        return f"<math display=block><mtable class=rows displaystyle=true>{cells}</mtable></math>"
+
+    def listed(self, items: list[tuple[str, str]]) -> str:
+        cells = "".join(f"<li>{formula} {_html_words(words)}</li>" for formula, words in items)
+        kind = "given" if any(words for _, words in items) else "given results"
+        return f"<ul class='{kind}'>{cells}</ul>"
+
+    def joined(self, steps: list[str]) -> str:
+        """Return a chapter's steps; on paper, steps with short formulas are two side by side."""
+        cells = []
+        for step in steps:
+            # a step with nothing but words is wide
+            longest = max((len(_TAG.sub("", row)) for row in _ROW.findall(step)), default=_HALF_LINE + 1)
+            drawn = step.startswith("<figure")
+            kind = "drawn" if drawn else "wide" if longest > _HALF_LINE else "short"
+            rows = f" style='grid-row: span {max(len(steps) - 1, 1)}'" if drawn else ""
+            cells.append(f"<div class='step {kind}'{rows}>\n{step}\n</div>")
+        return "<div class='steps'>\n" + "\n".join(cells) + "\n</div>"
+
+    def beside(self, figure: str, given: str) -> str:
+        return f"<div class='task'>\n{figure}\n<div>{given}</div>\n</div>"
+
+    def question(self, number: int, text: str, marks: int, hint: str, answers: str, formulas: str) -> str:
+        """Return a question: on paper those of a page share the room that is left, by their marks."""
+        worth = f"<span class='marks'>{_marks(marks)}</span>"
+        head = f"<p>{worth}<b>{number}</b> {text}</p>"
+        told = f"<p class='hint'>{hint}</p>" if hint else ""
+        room = formulas or "<div class='room'></div>"
+        grows = "" if formulas else f" style='flex-grow: {marks}'"
+        return f"<div class='question'{grows}>\n{head}{told}\n{room}\n{answers}\n</div>"
+
+    def answers(self, formulas: list[str]) -> str:
+        return f"<p class='answers'>{''.join(f'<span>{one}</span>' for one in formulas)}</p>"
+
+    def named(self, most: int) -> str:
+        return f"<p class='signed'>{''.join(f'<span>{one}</span>' for one in _signed(most))}</p>"
+
+    def sheet(self, pages: list[str]) -> str:
+        return "\n".join(f"<div class='page'>\n{one}\n</div>" for one in pages)
+
 
 _PREAMBLE = r"""\documentclass[10pt,a4paper,fleqn]{article}
 %s\usepackage{textcomp,amsmath,tikz}
@@ -538,30 +558,9 @@ def _latex_words(text: str) -> str:
     return "".join(LATEX.name(part) if n % 2 else plain_latex(part) for n, part in enumerate(parts))
 
 
-def _latex_listed(listed: list[tuple[str, str]]) -> str:
-    items = (formula + (f" ({_latex_words(words)})" if words else "") for formula, words in listed)
-    return r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{item}}}" for item in items) + r"\end{flushleft}"
-
-
 _COMMAND = re.compile(r"\\[a-zA-Z]+|[{}^_ ]")
 _LONG = 84
 """The most letters of a formula in the usual size: a longer one is set smaller, to stay on its page."""
-
-
-def _latex_aligned(aligned: list[EquationRow]) -> str:
-    lines = " \\\\\n".join(f"{row.left} &= {row.right}" for row in aligned)
-    block = f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
-    longest = max(len(_COMMAND.sub("", row.right)) for row in aligned)
-    return f"{{\\footnotesize\n{block}}}" if "bmatrix" not in lines and longest > _LONG else block
-
-
-def _latex_page(_: str, body: str) -> str:
-    further = [char for char in body if not latex_has(char)]
-    wide = any(east_asian_width(char) in ("W", "F") for char in further)
-    chinese = _TRADITIONAL if any(map(_is_traditional, further)) else _CHINESE
-    fonts = chinese if wide else _FURTHER if further else _STANDARD
-    # a paragraph that ends before an equation would leave an empty line
-    return f"{_PREAMBLE % fonts}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
 
 
 def _is_traditional(char: str) -> bool:
@@ -573,39 +572,51 @@ def _is_traditional(char: str) -> bool:
     return False
 
 
-def _latex_question(one: QuestionParts) -> str:
-    head = f"\\textbf{{{one.number}}}\\quad {one.text} \\hfill ({_marks(one)})"
-    room = one.formulas or f"\\vspace*{{\\stretch{{{one.marks}}}}}"
-    return "\n\n".join(part for part in (head, one.hint, room, one.answers) if part)
+class _Tex(DocumentForm):
+    new_page = r"\newpage"
 
+    def page(self, title: str, body: str) -> str:
+        further = [char for char in body if not latex_has(char)]
+        wide = any(east_asian_width(char) in ("W", "F") for char in further)
+        chinese = _TRADITIONAL if any(map(_is_traditional, further)) else _CHINESE
+        fonts = chinese if wide else _FURTHER if further else _STANDARD
+        # a paragraph that ends before an equation would leave an empty line
+        return f"{_PREAMBLE % fonts}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
 
-TEX = DocumentForm(
-    how=LATEX,
-    page=_latex_page,
-    heading=lambda level, text: f"\\{'sub' * (level - 1)}section*{{{_latex_words(text)}}}",
-    text=_latex_words,
-    paragraph=str,
-    inline=lambda formula: f"${formula}$",
-    aligned=_latex_aligned,
-    listed=_latex_listed,
-    figure=tikz,
-    free=free_tikz,
-    new_page=r"\newpage",
-    question=_latex_question,
-    answers=lambda found: (
-        r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{one}}}" for one in found) + r"\end{flushleft}"
-    ),
-    named=lambda most: "\\ ".join(rf"{one} \hrulefill" for one in _signed(most)),
-    sheet="\n\n\\newpage\n\n".join,
-)
+    def heading(self, level: int, text: str) -> str:
+        return f"\\{'sub' * (level - 1)}section*{{{_latex_words(text)}}}"
+
+    def text(self, words: str) -> str:
+        return _latex_words(words)
+
+    def aligned(self, rows: list[EquationRow]) -> str:
+        lines = " \\\\\n".join(f"{left} &= {right}" for left, right in rows)
+        block = f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
+        longest = max(len(_COMMAND.sub("", right)) for _, right in rows)
+        return f"{{\\footnotesize\n{block}}}" if "bmatrix" not in lines and longest > _LONG else block
+
+    def listed(self, items: list[tuple[str, str]]) -> str:
+        cells = (formula + (f" ({_latex_words(words)})" if words else "") for formula, words in items)
+        return (
+            r"\begin{flushleft}"
+            + ",\\quad\n".join(f"\\mbox{{{item}}}" for item in cells)
+            + r"\end{flushleft}"
+        )
+
+    def question(self, number: int, text: str, marks: int, hint: str, answers: str, formulas: str) -> str:
+        head = f"\\textbf{{{number}}}\\quad {text} \\hfill ({_marks(marks)})"
+        room = formulas or f"\\vspace*{{\\stretch{{{marks}}}}}"
+        return "\n\n".join(part for part in (head, hint, room, answers) if part)
+
+    def named(self, most: int) -> str:
+        return "\\ ".join(rf"{one} \hrulefill" for one in _signed(most))
+
+    def sheet(self, pages: list[str]) -> str:
+        return "\n\n\\newpage\n\n".join(pages)
 
 
 _MARKS = re.compile(r"[\\`*_{}\[\]<>#$&~|]")
 """The characters that Markdown, or a page made from it, may take for a mark anywhere."""
-
-
-def _markdown_words(text: str) -> str:
-    return _MARKS.sub(r"\\\g<0>", MARKED.sub(r"\1", text))
 
 
 def _without_tags(formula: str) -> str:
@@ -613,33 +624,39 @@ def _without_tags(formula: str) -> str:
     return formula.replace("<", r"\lt ").replace(">", r"\gt ")
 
 
-def _markdown_aligned(aligned: list[EquationRow]) -> str:
-    """Return each equation between $ signs, its rows one behind the other."""
-    lines = "".join(f"\n{row.left} = {row.right}" if row.left else f" = {row.right}" for row in aligned)
-    return "\n\n".join(f"${line}$" for line in lines[1:].split("\n"))
+class _Markdown(DocumentForm):
+    def page(self, title: str, body: str) -> str:
+        return f"{body}\n"
+
+    def heading(self, level: int, text: str) -> str:
+        return f"{'#' * level} {self.text(text)}"
+
+    def text(self, words: str) -> str:
+        return _MARKS.sub(r"\\\g<0>", MARKED.sub(r"\1", words))
+
+    def aligned(self, rows: list[EquationRow]) -> str:
+        """Return each equation between $ signs, its rows one behind the other."""
+        lines = "".join(f"\n{left} = {right}" if left else f" = {right}" for left, right in rows)
+        return "\n\n".join(f"${line}$" for line in lines[1:].split("\n"))
+
+    def listed(self, items: list[tuple[str, str]]) -> str:
+        return "\n".join(f"- {formula} {self.text(words)}".rstrip() for formula, words in items)
 
 
-def _markdown_listed(listed: list[tuple[str, str]]) -> str:
-    return "\n".join(f"- {formula} {_markdown_words(words)}".rstrip() for formula, words in listed)
-
-
-MARKDOWN = replace(
-    TEX,
-    how=replace(
+HTML: DocumentForm = _Html()
+TEX = _Tex(LATEX, figure=tikz, free=free_tikz)
+MARKDOWN = _Markdown(
+    replace(
         LATEX,
         symbol=lambda symbol: _without_tags(LATEX.symbol(symbol)),
         name=lambda name: _without_tags(LATEX.name(name)),
-    ),
-    page=lambda _, body: f"{body}\n",
-    heading=lambda level, text: f"{'#' * level} {_markdown_words(text)}",
-    text=_markdown_words,
-    aligned=_markdown_aligned,
-    listed=_markdown_listed,
-    figure=lambda _: "",
-    free=lambda _: "",
-    new_page="",
-    question=_plain_question,
-    answers=lambda found: "\n".join(f"- {one}" for one in found),
-    named=lambda most: " ".join(f"{one}: ____" for one in _signed(most)),
-    sheet="\n\n".join,
+    )
 )
+
+
+def page_form(*figures: Callable[[Solution], str], lit: bool) -> DocumentForm:
+    """Return a page with its `figure`, `construction` and `free`.
+
+    Where it is `lit`, a symbol of a force lights up its arrows, and an arrow its symbols.
+    """
+    return _Html(*figures, lit=lit)

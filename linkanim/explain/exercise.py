@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import accumulate
 from typing import Literal
 
-from linkanim.explain.documents import (
-    DocumentForm,
-    QuestionParts,
-    listed,
-    set_items,
-    short,
-    step_parts,
-    where_words,
-)
-from linkanim.explain.formula import Symbol, typeset
-from linkanim.explain.questions import ExamAnswer, ExamQuestion, given, questions
+from linkanim.explain.documents import DocumentForm, short
+from linkanim.explain.formula import Formula, typeset
+from linkanim.explain.questions import ExamQuestion, given, questions
 from linkanim.explain.solution import TOLD, Solution
 from linkanim.explain.steps import Equation, Given, marked
 from linkanim.words import said, sentences, to_say
@@ -48,7 +40,7 @@ def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "d
         parts += [
             form.new_page,
             form.heading(1, said("Key: {title}", title=title)),
-            where_words(version, form),
+            form.where(version),
             *_key(version, some, form),
         ]
     return form.page(titles[0], "\n\n".join(part for part in parts if part))
@@ -94,7 +86,7 @@ def _given(solution: Solution, asked: Sequence[ExamQuestion], form: DocumentForm
     """Yield what is given besides the figure."""
     items = given(solution, asked)
     stated = {item.value.symbol: item for item in items if isinstance(item, Given)}
-    yield from set_items([*stated.values()], form, blank=False)
+    yield from form.set_items([*stated.values()])
     if related := [item for item in items if isinstance(item, Equation)]:
         yield from (form.paragraph(_equation(one, form)) for one in related)
 
@@ -107,18 +99,18 @@ def _equation(one: Equation, form: DocumentForm) -> str:
 def _question(number: int, one: ExamQuestion, form: DocumentForm, level: Level) -> str:
     formulas = ""
     if level == "formulas":
-        formulas = form.steps(["\n\n".join(step_parts(step, form, blank=True)) for step in one.way])
+        formulas = form.steps(one.way, blank=True)
     hint = form.text(said("Hint: {hint}", hint=one.hint)) if level == "hints" and one.hint else ""
     # where the formulas stand they end in the answers
-    blanks = [] if formulas else [_open(answer, form) for answer in one.answers]
+    blanks = [] if formulas else [_open(*answer, form) for answer in one.answers]
     answers = form.answers(blanks) if blanks else ""
-    return form.question(QuestionParts(number, form.text(one.text), one.marks, hint, answers, formulas))
+    return form.question(number, form.text(one.text), one.marks, hint, answers, formulas)
 
 
-def _open(answer: ExamAnswer, form: DocumentForm) -> str:
+def _open(value: Formula, unit: str, form: DocumentForm) -> str:
     """Return an answer with its number left open."""
-    blank = form.how.blank + form.how.unit(answer.unit)
-    return form.inline(form.how.infix("=", typeset(answer.value, form.how), blank))
+    blank = form.how.blank + form.how.unit(unit)
+    return form.inline(form.how.infix("=", typeset(value, form.how), blank))
 
 
 def _key(solution: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) -> Iterator[str]:
@@ -127,12 +119,8 @@ def _key(solution: Solution, asked: Sequence[ExamQuestion], form: DocumentForm) 
     for n, one in enumerate(asked, 1):
         yield form.heading(2, f"{n} {one.text}")
         if one.answers:
-            yield form.listed([_solved(answer, solved, form) for answer in one.answers])
+            yield form.listed([form.entry(short(value, solved), unit) for value, unit in one.answers])
         if solution.made and one.way == getattr(solution.synthesis_chapter, "steps", None):
             yield form.construction(solution)
         if one.way:
-            yield form.steps(["\n\n".join(step_parts(step, form, blank=False)) for step in one.way])
-
-
-def _solved(answer: ExamAnswer, solved: Mapping[Symbol, float], form: DocumentForm) -> tuple[str, str]:
-    return listed(short(answer.value, solved), answer.unit, "", form)
+            yield form.steps(one.way)

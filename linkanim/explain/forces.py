@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
 
 from linkanim.explain.formula import (
     NOWHERE,
@@ -31,14 +34,12 @@ from linkanim.explain.steps import (
     SQUARE,
     Equation,
     Item,
-    LargeSystem,
     Outcome,
     Powers,
     Rates,
     Step,
     System,
     Unknown,
-    Words,
     joint_title,
     marked,
     rounded,
@@ -63,16 +64,11 @@ from linkanim.mechanics.quantities import link_labels
 from linkanim.mechanics.reactions import GROUND, Member, contact, member_of, members, named_at
 from linkanim.words import name_said, said, sentences, to_say
 
+_SHORTEST = 0.05 / 0.32
+"""A force of less than this share of the greatest on a body is drawn so long, so that it is seen."""
+_NO_FORCE = 1e-9
 _MOST_UNKNOWN = 12
 """The most unknowns of a system that is written out as a matrix."""
-
-
-class Acting(NamedTuple):
-    """A force on a body: what it is called, where it acts, and its components."""
-
-    name: str
-    place: Components
-    force: Components
 
 
 _SENSES = to_say(
@@ -82,31 +78,74 @@ _SENSES = to_say(
 )
 
 
-class FreeBody(NamedTuple):
-    """All that acts on a body: forces, couples by their names, and the point of its equation of moments."""
-
-    name: str
-    forces: tuple[Acting, ...]
-    couples: tuple[tuple[str, Formula], ...]
-    about: str
-
-
 def cross(one: Components, other: Components) -> Formula:
     """Return the moment of a force at the end of an arm."""
     return one.x * other.y - one.y * other.x
+
+
+@dataclass
+class FreeBody:
+    """All that acts on a body, and the joint of its equation of moments.
+
+    `forces` have a name, the place at which they act, and their components; `couples` a name and a moment.
+    """
+
+    name: str
+    about: str
+    forces: list[tuple[str, Components, Components]] = field(default_factory=list)
+    couples: list[tuple[str, Formula]] = field(default_factory=list)
+
+    def total(self) -> Components:
+        """Return the sum of the forces."""
+        return sum((force for _, _, force in self.forces), NOWHERE)
+
+    def moment(self, about: Components) -> Formula:
+        """Return the moment of all that acts on the body."""
+        moment = sum((cross(at - about, force) for _, at, force in self.forces if at != about), ZERO)
+        return sum((couple for _, couple in self.couples), moment)
+
+    def pulls(self) -> Iterator[tuple[str, complex, complex]]:
+        """Yield the forces that are not zero as they are drawn: name, foot, and way.
+
+        Places are x + yi, y up, in the scene's unit; the way of the greatest is 1 long.
+        """
+        values = [force.value for _, _, force in self.forces]
+        most = max(map(abs, values), default=0.0)
+        for (name, place, _), value in zip(self.forces, values, strict=True):
+            if abs(value) > _NO_FORCE * most:
+                yield name, place.value, value / abs(value) * max(abs(value) / most, _SHORTEST)
+
+    def turning(self) -> list[tuple[str, float]]:
+        """Return the couples that are not zero, counter-clockwise positive."""
+        return [(name, couple.value) for name, couple in self.couples if couple.value]
+
+    def triangle(self) -> list[tuple[str, complex, complex]]:
+        """Return the names and sides (N) of the triangle that the body's three forces close; none of others.
+
+        Exactly three forces that hold a body meet in a point, and head to tail they close a triangle.
+        """
+        sides = [(name, force.value) for name, _, force in self.forces if force.value]
+        if len(sides) != 3 or self.couples:
+            return []
+        begins = np.cumsum([0j, *(value for _, value in sides)]).tolist()
+        return [(name, begin, begin + value) for (name, value), begin in zip(sides, begins, strict=False)]
 
 
 class Balance:
     """The forces worked out so far, and the lines that led to them."""
 
     def __init__(
-        self, rates: Rates, known: Mapping[str, Formula], motion: Any, centre: Callable[[Body], str]
+        self,
+        rates: Rates,
+        known: Mapping[str, Formula],
+        motion: Any,
+        about: str | None = None,
     ) -> None:
+        """Note the bodies, nothing on them yet; moments about the joint `about` where a body has it."""
         self.rates, self.work, self.linkage = rates, rates.work, rates.work.linkage
-        self.known, self.motion, self.centre = known, motion, centre
+        self.known, self.motion = known, motion
         self.members, self.labels = members(self.linkage), link_labels(self.linkage)
-        self.forces: dict[Member, list[Acting]] = defaultdict(list)
-        self.couples: dict[Member, list[tuple[str, Formula]]] = defaultdict(list)
+        self.bodies = {member: self._free(member, about) for member in self.members.names}
         self.pins: dict[str, Components] = defaultdict(lambda: NOWHERE)
         self.results: list[Outcome] = []
         self.unknown: list[Symbol] = []
@@ -116,6 +155,12 @@ class Balance:
         sizes = [abs(float(part)) for one in reactions.joints.values() for f in one.values() for part in f]
         self.size = max(sizes, default=0.0)
         self.moments = f"N {self.work.scale.unit}"
+
+    def _free(self, member: Member, about: str | None) -> FreeBody:
+        name = self.members.names[member]
+        joints = (member,) if isinstance(member, str) else tuple(self.linkage.rigid_bodies[member])
+        own = next((one.joints for one in self.linkage.bodies if one.name == name and one.joints), joints)
+        return FreeBody(name, about if about in joints else own[0])
 
     def say(self, text: str) -> None:
         """Add a sentence."""
@@ -162,21 +207,15 @@ class Balance:
     def apply(self, member: Member, name: str, place: Components, force: Components) -> None:
         """Note a force on a body."""
         if force != NOWHERE:
-            self.forces[member].append(Acting(name, place, force))
+            self.bodies[member].forces.append((name, place, force))
 
-    def total(self, member: Member) -> Components:
-        """Return the sum of the forces on a body."""
-        return sum((one.force for one in self.forces[member]), NOWHERE)
-
-    def moment(self, member: Member, about: Components) -> Formula:
-        """Return the moment of all that acts on a body."""
-        terms = (cross(one.place - about, one.force) for one in self.forces[member] if one.place != about)
-        moment = sum(terms, ZERO)
-        return sum((couple for _, couple in self.couples[member]), moment)
+    def turn(self, member: Member, name: str, couple: Formula) -> None:
+        """Note a couple on a body."""
+        self.bodies[member].couples.append((name, couple))
 
     def hang(self, member: Member, joint: str) -> None:
         """Let a body be held by a joint against all else that acts on it."""
-        self.meet(joint, member, -self.total(member))
+        self.meet(joint, member, -self.bodies[member].total())
 
     def direction(self, joint: str, line: Line) -> Components:
         """Return the direction of a joint's guide."""
@@ -188,8 +227,8 @@ class Balance:
         normal, block = Components(-u.y, u.x), joint
         name = self.members.names[block]
         index = self.labels.get(name, name)
-        force = self.newtons(Symbol("N", index), -dot(self.total(block), normal))
-        turning = self.moment_line(Symbol("M", index), -self.moment(block, place))
+        force = self.newtons(Symbol("N", index), -dot(self.bodies[block].total(), normal))
+        turning = self.moment_line(Symbol("M", index), -self.bodies[block].moment(place))
         self.unknown += [one.symbol for one in (force, turning) if one.symbol is not None]
         self.results.append(Outcome(f"{name}.guide_force", force, "N", NOTHING * self.size))
         push = normal.times(force)
@@ -197,8 +236,8 @@ class Balance:
         carrier = holding(self.linkage.rigid_bodies, line.body) or 0 if line.on else 0
         self.apply(carrier, f"N_{{{index}}}", place, -push)
         if turning.constant != 0:
-            self.couples[block].append((f"M_{{{index}}}", turning))
-            self.couples[carrier].append((f"M_{{{index}}}", -turning))
+            self.turn(block, f"M_{{{index}}}", turning)
+            self.turn(carrier, f"M_{{{index}}}", -turning)
 
 
 # What is known: weight and inertia, springs and dampers, loads.
@@ -232,7 +271,7 @@ def _loads(balance: Balance) -> None:
         balance.apply(member, f"F_{{{load.name}}}", place, given)
         if load.torque:
             torque = work.quoted(Symbol("T", load.name), f"{load.torque:.12g}", "N m")
-            balance.couples[member].append((f"T_{{{load.name}}}", torque / _metre(balance)))
+            balance.turn(member, f"T_{{{load.name}}}", torque / _metre(balance))
 
 
 def _metre(balance: Balance) -> Formula:
@@ -247,7 +286,7 @@ def _weigh(body: Body, balance: Balance) -> None:
         return
     if body.mass is not None:
         mass = work.quoted(Symbol("m", label), f"{body.mass:.12g}", "kg")
-        at = body.slider or balance.centre(body)
+        at = body.slider or work.centre(body)
         bent = NOWHERE if linkage.static else balance.rates.of(at, 2).times(_metre(balance))
         fall = work.quoted(Symbol("g"), f"{linkage.gravity:.12g}", "m/s²") if linkage.gravity else ZERO
         down = Components(bent.x, bent.y + fall)
@@ -261,7 +300,7 @@ def _weigh(body: Body, balance: Balance) -> None:
         turning = balance.known[f"{body.name}.angular_acceleration"]
         couple = balance.moment_line(Symbol("C", label), -(inertia * turning / _metre(balance)))
         if couple.constant != 0:
-            balance.couples[member].append((f"C_{{{label}}}", couple))
+            balance.turn(member, f"C_{{{label}}}", couple)
 
 
 def _pull(strut: Spring | Damper, balance: Balance) -> None:
@@ -297,8 +336,8 @@ def _bars(joint: RRR, balance: Balance) -> None:
             joint=marked(joint.name),
         )
     )
-    m1 = balance.moment_line(Symbol("M", f"{first},{labels[0]}"), balance.moment(one, points[first]))
-    given = balance.moment(other, points[last]) + cross(b2, pull)
+    m1 = balance.moment_line(Symbol("M", f"{first},{labels[0]}"), balance.bodies[one].moment(points[first]))
+    given = balance.bodies[other].moment(points[last]) + cross(b2, pull)
     m2 = balance.moment_line(Symbol("M", f"{last},{labels[1]}"), given)
     force = _solved(
         joint.name, balance.pair(joint.name, one), ((-b1.y, b1.x, -m1), (-b2.y, b2.x, m2)), balance
@@ -331,7 +370,7 @@ def _solved(
 
     values = tuple(tuple(entry(one, n, k) for k, one in enumerate(row)) for n, row in enumerate(rows, 1))
     (a, b, c), (d, e, f) = values
-    work.items.append(System(unknowns, rows, ((a, b, c), (d, e, f))))
+    work.items.append(System(unknowns, values, rows))
     det = work.let(Symbol("D", f"{index},F"), a * e - b * d, SQUARE)
     numerators = (c * e - b * f, a * f - d * c)
     return Components(
@@ -358,9 +397,9 @@ def _bar_to_slider(joint: RRP, balance: Balance) -> None:
             end=marked(joint.end),
         )
     )
-    along_ = balance.newtons(Symbol("F", f"{index}t"), dot(pull + balance.total(block), u))
+    along_ = balance.newtons(Symbol("F", f"{index}t"), dot(pull + balance.bodies[block].total(), u))
     m = balance.moment_line(
-        Symbol("M", f"{joint.end},{balance.label(bar, name)}"), balance.moment(bar, points[joint.end])
+        Symbol("M", f"{joint.end},{balance.label(bar, name)}"), balance.bodies[bar].moment(points[joint.end])
     )
     lever = balance.work.let(Symbol("q", f"{name},F"), dot(arm, u), LENGTH)
     aside = balance.work.let(Symbol("d", f"{name},F"), cross(arm, u), LENGTH)
@@ -377,7 +416,9 @@ def _slot(joint: RPR, balance: Balance) -> None:
     _pinned(joint.name, bar, balance)
     u = along(balance.work.angle_of(joint.pivot, joint.name))
     label = balance.label(bar, joint.name)
-    m = balance.moment_line(Symbol("M", f"{joint.pivot},{label}"), balance.moment(bar, points[joint.pivot]))
+    m = balance.moment_line(
+        Symbol("M", f"{joint.pivot},{label}"), balance.bodies[bar].moment(points[joint.pivot])
+    )
     lever = balance.work.let(
         Symbol("q", f"{joint.through},F"), dot(points[joint.through] - points[joint.pivot], u), LENGTH
     )
@@ -395,7 +436,7 @@ def _yoke(joint: RPP, balance: Balance) -> None:
     )
     push = balance.newtons(
         Symbol("S", f"{joint.pin},{balance.label(block, joint.name)}"),
-        dot(balance.total(block), u) / sin(slot),
+        dot(balance.bodies[block].total(), u) / sin(slot),
     )
     n = Components(-(sin(slot) * u.x) - cos(slot) * u.y, cos(slot) * u.x - sin(slot) * u.y)
     balance.meet(joint.pin, block, n.times(push))
@@ -411,7 +452,7 @@ def _pinned(joint: str, member: Member, balance: Balance) -> None:
 def _crank(joint: Crank, balance: Balance) -> None:
     (bar,), points = balance.members.of[joint.name], balance.work.points
     _pinned(joint.name, bar, balance)
-    label, moment = balance.label(bar, joint.name), balance.moment(bar, points[joint.pivot])
+    label, moment = balance.label(bar, joint.name), balance.bodies[bar].moment(points[joint.pivot])
     ends = balance.linkage.drive.actuator.along
     if joint.gear is not None:
         _mesh(joint, moment, balance)
@@ -419,8 +460,8 @@ def _crank(joint: Crank, balance: Balance) -> None:
         turning = balance.moment_line(Symbol("M", "in"), -moment)
         if turning.symbol:
             balance.unknown.append(turning.symbol)
-        balance.couples[bar].append(("M_{in}", turning))
-        balance.couples[0].append(("M_{in}", -turning))
+        balance.turn(bar, "M_{in}", turning)
+        balance.turn(0, "M_{in}", -turning)
     else:
         fixed, moving = ends
         apart = points[moving] - points[fixed]
@@ -450,9 +491,9 @@ def _mesh(joint: Crank, moment: Formula, balance: Balance) -> None:
     needed = balance.moment_line(Symbol("M", f"g{joint.name}"), -moment)
     if share is None:
         factor = number(f"{ratio:.12g}")
-        balance.couples[bar].append((f"M_{{g{joint.name}}}", needed))
-        balance.couples[other].append((f"M_{{g{joint.name}}}", -(needed * factor)))
-        balance.couples[0].append((f"M_{{g{joint.name}}}", -(needed * number(f"{1.0 - ratio:.12g}"))))
+        balance.turn(bar, f"M_{{g{joint.name}}}", needed)
+        balance.turn(other, f"M_{{g{joint.name}}}", -(needed * factor))
+        balance.turn(0, f"M_{{g{joint.name}}}", -(needed * number(f"{1.0 - ratio:.12g}")))
         return
     own = work.points[joint.pivot]
     line = own - work.points[centre]
@@ -477,7 +518,7 @@ def _driven_slider(joint: DrivenSlider, balance: Balance) -> None:
     (block,) = balance.members.of[joint.name]
     _pinned(joint.name, block, balance)
     u, place = balance.direction(joint.name, joint.line), balance.work.points[joint.name]
-    push = balance.newtons(Symbol("F", "in,s"), -dot(balance.total(block), u))
+    push = balance.newtons(Symbol("F", "in,s"), -dot(balance.bodies[block].total(), u))
     if push.symbol:
         balance.unknown.append(push.symbol)
     balance.apply(block, "F_{in}", place, u.times(push))
@@ -503,20 +544,12 @@ _KINDS: Mapping[type[Joint], Callable[[Any, Balance], None]] = {
 # The chapter: each body free, its equations, the system, the solution.
 
 
-class Forces(NamedTuple):
-    """The steps on forces, their results, and the bodies free, in the order of their names."""
-
-    steps: tuple[Step, ...]
-    results: tuple[Outcome, ...]
-    bodies: tuple[FreeBody, ...]
-
-
-def forces(balance: Balance, about: str | None = None) -> Forces:
-    """Return the steps on what each body carries; moments about the joint `about` where a body has it."""
+def forces(balance: Balance) -> tuple[Step, ...]:
+    """Return the steps on what each body carries; the balance has the bodies then, and the results."""
     linkage = balance.linkage
     if not math.isfinite(balance.size):
         text = said("Forces grow without bound here: a lever vanishes under load. Take a pose beside it.")
-        return Forces((Step("", (Words(text),)),), (), ())
+        return (Step("", (text,)),)
     known = _written(balance, lambda: _loads(balance))
     solved = []
     for joint in reversed(linkage.joints):
@@ -527,16 +560,15 @@ def forces(balance: Balance, about: str | None = None) -> Forces:
     for pin in linkage.pins:
         lines = _written(balance, lambda pin=pin: _pinned(pin.name, 0, balance))  # type: ignore[misc]
         solved.append(Step(said("Ground at {pin}", pin=marked(pin.name)), lines))
-    bodies = tuple(_free(member, balance, about) for member in balance.members.names if member)
-    equations = [(body, _equations(body, balance)) for body in bodies]
-    steps = [Step("", (Words(said(_SENSES)),))]
+    equations = [(body, _equations(body, balance)) for member, body in balance.bodies.items() if member]
+    steps = [Step("", (said(_SENSES),))]
     steps += [Step(said("What is known"), known)] if known else []
     steps += [
         Step(said("{body}, free", body=_words(body)), _freed(body, balances)) for body, balances in equations
     ]
     steps += _system([one for _, balances in equations for one in balances], balance)
     steps += [step for step in solved if step.items]
-    return Forces(tuple(steps), tuple(balance.results), bodies)
+    return tuple(steps)
 
 
 def _written(balance: Balance, write: Callable[[], object]) -> tuple[Item, ...]:
@@ -552,33 +584,19 @@ def _words(body: FreeBody) -> str:
     return name[:1].upper() + name[1:]
 
 
-def _free(member: Member, balance: Balance, about: str | None) -> FreeBody:
-    name, joints = balance.members.names[member], _joints_of(member, balance)
-    own = next((one.joints for one in balance.linkage.bodies if one.name == name and one.joints), joints)
-    point = about if about in joints else own[0]
-    return FreeBody(name, tuple(balance.forces[member]), tuple(balance.couples[member]), point)
-
-
-def _joints_of(member: Member, balance: Balance) -> tuple[str, ...]:
-    return (member,) if isinstance(member, str) else tuple(balance.linkage.rigid_bodies[member])
-
-
 def _equations(body: FreeBody, balance: Balance) -> tuple[Formula, Formula, Formula]:
     """Return the sums of a free body that are zero: across, up, and of moments about its point."""
-    about = balance.work.points[body.about]
-    x = sum((one.force.x for one in body.forces), ZERO)
-    y = sum((one.force.y for one in body.forces), ZERO)
-    turning = sum((cross(one.place - about, one.force) for one in body.forces if one.place != about), ZERO)
-    return x, y, sum((couple for _, couple in body.couples), turning)
+    x, y = body.total()
+    return x, y, body.moment(balance.work.points[body.about])
 
 
 def _freed(body: FreeBody, sums: tuple[Formula, Formula, Formula]) -> tuple[Item, ...]:
-    acting = dict.fromkeys([*(one.name for one in body.forces), *(name for name, _ in body.couples)])
+    acting = dict.fromkeys([*(name for name, _, _ in body.forces), *(name for name, _ in body.couples)])
     if not acting:
-        return (Words(said("Nothing acts on it.")),)
+        return (said("Nothing acts on it."),)
     listed = Unknown(tuple(Formula("leaf", symbol=symbol_of(name)) for name in acting), said("On it act"))
     text = said(_SUMS if sums[-1].symbolic else _NO_MOMENT, about=marked(body.about))
-    return (listed, Words(text), *(Equation(one, ZERO) for one in sums if one.symbolic))
+    return (listed, text, *(Equation(one, ZERO) for one in sums if one.symbolic))
 
 
 _SUMS = to_say("Its forces across and up, and their moments about {about}:")
@@ -601,7 +619,7 @@ def _system(sums: list[Formula], balance: Balance) -> list[Step]:
         return []
     text = said("These are {count} linear equations in {count} unknowns.", count=count)
     if count > _MOST_UNKNOWN:
-        return [Step(said("All equations"), (Words(text),))]
+        return [Step(said("All equations"), (text,))]
     digits = 5
 
     def leaf(value: float) -> Formula:
@@ -614,7 +632,7 @@ def _system(sums: list[Formula], balance: Balance) -> list[Step]:
     return [
         Step(
             said("All equations"),
-            (Words(sentences(text, said("As A x = b they are:"))), LargeSystem(tuple(unknown), matrix)),
+            (sentences(text, said("As A x = b they are:")), System(tuple(unknown), matrix)),
         )
     ]
 

@@ -206,6 +206,11 @@ class Components(NamedTuple):
     def __neg__(self) -> Components:
         return Components(-self.x, -self.y)
 
+    @property
+    def value(self) -> complex:
+        """What the shown digits evaluate to, as x + yi."""
+        return complex(self.x.value, self.y.value)
+
     def times(self, factor: Formula) -> Components:
         """Return the vector times a factor, which is written first."""
         return Components(factor * self.x, factor * self.y)

@@ -12,7 +12,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Callable, Mapping
 from itertools import takewhile
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,22 +38,19 @@ from linkanim.explain.steps import (
     LENGTH,
     SQUARE,
     Chapter,
+    Coordinate,
     Equation,
     GuideLine,
     LoopSide,
     Order,
     Powers,
     Rates,
-    Route,
     Step,
     Unknown,
-    UnknownRate,
     ValueLine,
     Work,
     joint_title,
     marked,
-    route_of_bar,
-    slide_sides,
 )
 from linkanim.frozen import frozen
 from linkanim.mechanics.groups import GroupPoint, GroupSlider
@@ -66,6 +63,10 @@ from linkanim.words import name_said, row_said, said, to_say
 
 Places = NDArray[np.complex128]
 Lengths = NDArray[np.float64]
+Route = tuple[str, tuple[LoopSide, ...]]
+"""A way to a joint: the joint at which it begins, and the vectors along it."""
+Reach = tuple[Callable[[Mapping[str, Places]], Lengths], float, float]
+"""The bounds within which a dyad closes: as a function of joints' places x + yi (n,), low and high."""
 
 
 def place_pin(pin: Pin, work: Work) -> None:
@@ -110,8 +111,8 @@ def move_crank(crank: Crank, rates: Rates, order: Order) -> None:
     ends, work = (crank.pivot, crank.name), rates.work
     if crank.gear is not None:
         mate = work.linkage.crank(crank.gear.mate)
-        driver = rates.rate(work.frame((mate.pivot, mate.name)), order)
-        rates.let_rate(work.frame(ends), _ratio(crank.gear) * driver, order)
+        driver = rates.turning(work.frame((mate.pivot, mate.name)), order)
+        rates.let_rate(("θ", work.frame(ends)), _ratio(crank.gear) * driver, order)
     rates.let_carried(crank.name, ends, work.bar(*ends, crank.length), order)
 
 
@@ -123,19 +124,26 @@ def _ratio(gear: Gear) -> Formula:
 def place_slider(slider: DrivenSlider, work: Work) -> None:
     """Add where the driven slider lies."""
     guide = work.guide(slider.line, slider.name)
-    work.let_point(slider.name, on_guide(work, guide, work.slides[slider.name]))
+    work.let_point(slider.name, guide.point(work, work.slides[slider.name]))
 
 
 def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
     """Add how the driven slider moves."""
     guide = rates.work.guide(slider.line, slider.name)
-    rates.let_moving(slider.name, guide.direction.times(rates.rate(slider.name, order)), order)
+    rates.let_moving(slider.name, guide.direction.times(rates.rate(("s", slider.name), order)), order)
+
+
+def route_of_bar(joint: Joint, work: Work, which: int = 0) -> Route:
+    """Return the route to a joint along one of its bars."""
+    start, length = joint.bars[which]
+    symbol = Symbol("R", work.names.length(start, joint.name), bold=True)
+    return start, ((symbol, work.bar(start, joint.name, length)),)
 
 
 def route_of_guide(joint: DrivenSlider | RRP | RPP, work: Work) -> Route:
     """Return the route along a joint's guide."""
     guide = work.guide(joint.line, joint.name)
-    return Route(guide.through, slide_sides(work, guide, joint.name))
+    return guide.through, guide.sides(work, joint.name)
 
 
 def place_point(point: Rigid, work: Work) -> None:
@@ -187,7 +195,7 @@ def route_of_point(point: Rigid, work: Work) -> Route:
     base, points = point.on[0], work.points
     name, other = legs(point, work)
     index = name.sub if not other.letter and name.letter == "r" else base + point.name
-    return Route(base, (LoopSide(Symbol("R", index, bold=True), points[point.name] - points[base]),))
+    return base, ((Symbol("R", index, bold=True), points[point.name] - points[base]),)
 
 
 def rest(pin: Pin, rates: Rates, order: Order) -> None:
@@ -327,28 +335,13 @@ def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
     right = rates.of(q, order) - rates.of(p, order)
     if order == 2:
         right = right + rates.centripetal(frames[0], one) - rates.centripetal(frames[1], other)
-    rates.solve(
-        name, (UnknownRate(frames[0], one.left()), UnknownRate(frames[1], -other.left())), right, order
-    )
+    rates.solve(name, {("θ", frames[0]): one.left(), ("θ", frames[1]): -other.left()}, right, order)
     rates.let_carried(name, (p, name), one, order)
 
 
 def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
     """Return both routes to the pin."""
     return route_of_bar(joint, work), route_of_bar(joint, work, 1)
-
-
-def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
-    """Add how far a point lies along a guide, and how far to its left; return both."""
-    arm, u = work.points[point] - work.points[guide.through], guide.direction
-    forward = work.let(Symbol("p", joint), arm.x * u.x + arm.y * u.y, LENGTH)
-    return forward, work.let(Symbol("n", joint), arm.y * u.x - arm.x * u.y - guide.offset, LENGTH)
-
-
-def on_guide(work: Work, guide: GuideLine, slide: Formula) -> Components:
-    """Return the point of a guide at the distance `slide` along it."""
-    u = guide.direction
-    return work.points[guide.through] + u.times(slide) + u.left().times(guide.offset)
 
 
 def place_slider_on_bar(joint: RRP, work: Work) -> None:
@@ -363,7 +356,7 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
             through=marked(guide.through),
         )
     )
-    forward, aside = beside_guide(work, guide, end, name)
+    forward, aside = guide.let_beside(work, end, name)
     margin = square(work.length(end, name, joint.length)) - square(aside)
     if margin.value < 0:
         work.say(
@@ -377,7 +370,7 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
     work.say(_why_ahead(joint, ahead))
     slide = work.let(work.names.slide(name), forward + root if ahead else forward - root, LENGTH)
     work.slides[name] = slide
-    work.let_point(name, on_guide(work, guide, slide))
+    work.let_point(name, guide.point(work, slide))
     work.angle_of(end, name)
 
 
@@ -403,14 +396,14 @@ def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
     """Add the two equations for how the slider slides and the bar turns, and how the joint moves."""
     work, name, end = rates.work, joint.name, joint.end
     guide, frame = work.guide(joint.line, name), work.frame((end, name))
-    bar, u = work.bar(end, name, joint.length), guide.direction
-    unknowns = UnknownRate(name, u), UnknownRate(frame, -bar.left())
-    right = rates.of(end, order) - rates.guided(guide, name, order, unknowns[0])
+    bar = work.bar(end, name, joint.length)
+    sliding: dict[Coordinate, Components] = {("s", name): guide.direction}
+    right = rates.of(end, order) - rates.guided(guide, name, order, sliding)
     if order == 2:
         right = right - rates.centripetal(frame, bar)
-    rates.solve(name, unknowns, right, order)
+    rates.solve(name, {**sliding, ("θ", frame): -bar.left()}, right, order)
     if joint.line.on is None:
-        rates.let_moving(name, u.times(rates.rate(name, order)), order)
+        rates.let_moving(name, guide.direction.times(rates.rate(("s", name), order)), order)
     else:
         rates.let_carried(name, (end, name), bar, order)
 
@@ -458,9 +451,9 @@ def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
     arm = work.points[joint.through] - work.points[pivot]
     right = rates.of(joint.through, order) - rates.of(pivot, order)
     if order == 2:
-        across = u.left().times(TWO * rates.rate(frame, 1) * rates.rate(name, 1))
+        across = u.left().times(TWO * rates.turning(frame, 1) * rates.rate(("s", name), 1))
         right = right + rates.centripetal(frame, arm) - across
-    rates.solve(name, (UnknownRate(frame, arm.left()), UnknownRate(name, u)), right, order)
+    rates.solve(name, {("θ", frame): arm.left(), ("s", name): u}, right, order)
     rates.let_carried(name, (pivot, name), work.bar(pivot, name, joint.length), order)
 
 
@@ -468,8 +461,8 @@ def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
     """Return both routes to the pin in the slot."""
     pivot, name, angle = joint.pivot, joint.name, work.angle_of(joint.pivot, joint.name)
     offset = _slot_offset(joint, work)
-    slot = GuideLine(pivot, along(angle), offset, work.frame((pivot, name)), angle)
-    return Route(joint.through, ()), Route(pivot, slide_sides(work, slot, name))
+    slot = GuideLine(pivot, offset, work.frame((pivot, name)), angle)
+    return (joint.through, ()), (pivot, slot.sides(work, name))
 
 
 def place_yoke(joint: RPP, work: Work) -> None:
@@ -484,9 +477,9 @@ def place_yoke(joint: RPP, work: Work) -> None:
             through=marked(guide.through),
         )
     )
-    forward, aside = beside_guide(work, guide, joint.pin, name)
+    forward, aside = guide.let_beside(work, joint.pin, name)
     work.slides[name] = work.let(work.names.slide(name), forward - aside * (cos(slot) / sin(slot)), LENGTH)
-    work.let_point(name, on_guide(work, guide, work.slides[name]))
+    work.let_point(name, guide.point(work, work.slides[name]))
     work.slides["t" + name] = work.let(Symbol("t", work.names.slide(name).sub), aside / sin(slot), LENGTH)
 
 
@@ -509,9 +502,12 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     """Add the two equations for how bar and pin slide, and how the joint moves."""
     work, name = rates.work, joint.name
     guide = work.guide(joint.line, name)
-    bar = UnknownRate(name, guide.direction)
-    unknowns = bar, UnknownRate(name, _along_slot(joint, work, guide), "t")
-    right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, *unknowns)
+    slid: Coordinate = ("s", name)
+    unknowns: dict[Coordinate, Components] = {
+        slid: guide.direction,
+        ("t", name): _along_slot(joint, work, guide),
+    }
+    right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, unknowns)
     if rates.slopes is None and order == 1:
         work.say(
             said(
@@ -520,25 +516,17 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
             )
         )
     rates.solve(name, unknowns, right, order)
-    carried = rates.guided(guide, name, order, bar)
-    rates.let_moving(name, carried + bar.column.times(rates.rate(name, order)), order)
+    carried = rates.guided(guide, name, order, {slid: guide.direction})
+    rates.let_moving(name, carried + guide.direction.times(rates.rate(slid, order)), order)
 
 
 def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
     """Return both routes to the pin."""
     w = _along_slot(joint, work, work.guide(joint.line, joint.name))
     index = work.names.slide(joint.name).sub
-    last = LoopSide(Symbol("T", index, bold=True), w.times(work.slides["t" + joint.name]))
+    last = Symbol("T", index, bold=True), w.times(work.slides["t" + joint.name])
     start, sides = route_of_guide(joint, work)
-    return Route(joint.pin, ()), Route(start, (*sides, last))
-
-
-class Reach(NamedTuple):
-    """The bounds within which a dyad closes: as `of` joints' places x + yi (n,), low and high."""
-
-    of: Callable[[Mapping[str, Places]], Lengths]
-    low: float
-    high: float
+    return (joint.pin, ()), (start, (*sides, last))
 
 
 def reach_of_bars(joint: RRR, work: Work) -> Reach:
@@ -557,7 +545,7 @@ def reach_of_bars(joint: RRR, work: Work) -> Reach:
     )
     low = work.let(Symbol("d", "min"), long - short if long.value > short.value else ZERO, LENGTH)
     high = work.let(Symbol("d", "max"), long + short, LENGTH)
-    return Reach(lambda at: np.abs(at[p] - at[q]), low.value, high.value)
+    return lambda at: np.abs(at[p] - at[q]), low.value, high.value
 
 
 def reach_of_slider(joint: RRP, work: Work) -> Reach:
@@ -582,7 +570,7 @@ def reach_of_slider(joint: RRP, work: Work) -> Reach:
             unit=work.scale.unit,
         )
     )
-    return Reach(aside, -math.inf, joint.length)
+    return aside, -math.inf, joint.length
 
 
 def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
@@ -600,7 +588,7 @@ def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
             unit=work.scale.unit,
         )
     )
-    return Reach(lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
+    return lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf
 
 
 def place_group(point: GroupPoint, work: Work) -> None:
@@ -628,10 +616,9 @@ def move_group(point: GroupPoint, rates: Rates, order: Order) -> None:
     else:
         pose = rates.work.pose.per_input
         vector, measure = (pose.velocity, pose.acceleration)[order - 1][point.name], Powers(1, order)
-        mark = rates.letters.moving[order - 1]
         x, y = (
-            rates.work.solved(Symbol(letter, point.name, mark), float(value), measure, rates.scale)
-            for letter, value in zip("xy", vector, strict=True)
+            rates.work.solved(symbol, float(value), measure, rates.scale)
+            for symbol, value in zip(rates.moving_symbols(point.name, order), vector, strict=True)
         )
         rates.moving.setdefault(point.name, []).append(Components(x, y))
     if point.name == point.group.points[-1]:
@@ -680,43 +667,34 @@ CYLINDER = Symbol("ℓ")
 """The length of the driving cylinder."""
 
 
-class LoopArrow(NamedTuple):
-    """A vector of a loop in its place, x + yi in the scene's unit."""
-
-    symbol: Symbol
-    begin: complex
-    end: complex
+Arrows = dict[Symbol, tuple[complex, complex]]
+"""The vectors of loops, by their symbols: where each begins and ends, x + yi in the scene's unit."""
 
 
-class VectorLoop(NamedTuple):
-    """A dyad's loop: the step with its equations, and its vectors."""
+def loops_of(work: Work, places: Chapter) -> tuple[list[Step], Arrows]:
+    """Return a step for each dyad's loop in solving order, a driving cylinder's first, and all their vectors.
 
-    step: Step
-    arrows: tuple[LoopArrow, ...]
-
-
-class _Chain(NamedTuple):
-    """The route from a fixed pin: the pin, and the vectors with the places at which they begin."""
-
-    root: str
-    sides: tuple[tuple[LoopSide, complex], ...]
-
-
-def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
-    """Return each dyad's loop in solving order, a driving cylinder's first; `places` is their positions."""
+    `places` are the positions of the joints.
+    """
     symbols = {
         step.title: {item.value.symbol for item in step.items if isinstance(item, ValueLine)}
         for step in places.steps
     }
-    dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
-    ways = _WaysFromGround(work)
-    loops = tuple(_loop(joint, ways, symbols.get(joint_title(joint.name), set())) for joint in dyads)
+    steps: list[Step] = []
+    arrows: Arrows = {}
     lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
     length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
-    return loops if length is None else (_cylinder(length, work), *loops)
+    if length is not None:
+        steps.append(_cylinder(length, work, arrows))
+    ways = _WaysFromGround(work)
+    for joint in work.linkage.joints:
+        if (close := KINDS[type(joint)].loop) is not None:
+            both = [ways.along(route) for route in close(joint, work)]
+            steps.append(_loop(joint, both, symbols.get(joint_title(joint.name), set()), work, arrows))
+    return steps, arrows
 
 
-def _cylinder(length: Formula, work: Work) -> VectorLoop:
+def _cylinder(length: Formula, work: Work, arrows: Arrows) -> Step:
     """Return the loop of a cylinder that drives the crank: crank's pivot, cylinder's foot and head."""
     between, crank = work.linkage.drive.actuator.along, work.linkage.driven
     assert between is not None
@@ -735,41 +713,32 @@ def _cylinder(length: Formula, work: Work) -> VectorLoop:
         Equation(base.x + length * axis.x, arm.x),
         Equation(base.y + length * axis.y, arm.y),
     )
-    arrows = tuple(
-        LoopArrow(name, ends[begin], ends[end])
-        for name, begin, end in zip(names, (0, 1, 0), (1, 2, 2), strict=True)
-    )
-    return VectorLoop(
-        Step(said("Loop of the cylinder"), (*equations, Unknown((turned, tilt), said("Unknown")))), arrows
-    )
+    for name, begin, end in zip(names, (0, 1, 0), (1, 2, 2), strict=True):
+        arrows[name] = ends[begin], ends[end]
+    return Step(said("Loop of the cylinder"), (*equations, Unknown((turned, tilt), said("Unknown"))))
 
 
-def _loop(joint: Joint, ways: _WaysFromGround, symbols: set[Symbol | None]) -> VectorLoop:
-    work, close = ways.work, KINDS[type(joint)].loop
-    assert close is not None
-    one, other = (ways.along(route) for route in close(joint, work))
-    same = sum(
-        1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one.sides, other.sides, strict=False))
-    )
-    left, right = list(one.sides[same:]), list(other.sides[same:])
-    if one.root != other.root:
-        right.insert(0, _ground(work, one.root, other.root))
-    sides = [[side for side, _ in chain] for chain in (left, right)]
-    bold = [sum((Formula("leaf", symbol=side.symbol, shown="0") for side in chain), ZERO) for chain in sides]
-    parts = [[sum((side.vector[n] for side in chain), ZERO) for chain in sides] for n in (0, 1)]
-    equations = [Equation(*pair) for pair in (bold, *parts)]
-    arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
+def _loop(joint: Joint, ways: list[_Way], symbols: set[Symbol | None], work: Work, arrows: Arrows) -> Step:
+    """Return the loop of two ways to a joint, without what they share, and add its vectors."""
+    (root, one), (other_root, other) = ways
+    same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
+    chains = [one[same:], other[same:]]
+    if root != other_root:
+        chains[1].insert(0, (*_ground(work, root, other_root), work.place(root)))
+    arrows |= {name: (at, at + vector.value) for chain in chains for name, vector, at in chain}
+    bold = [
+        sum((Formula("leaf", symbol=symbol, shown="0") for symbol, _, _ in chain), ZERO) for chain in chains
+    ]
+    parts = [[sum((vector[n] for _, vector, _ in chain), ZERO) for chain in chains] for n in (0, 1)]
     known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
     unknown = tuple(leaf for symbol, leaf in known.items() if symbol in symbols)
-    return VectorLoop(
-        Step(
-            said("Loop of {joint}", joint=marked(joint.name)), (*equations, Unknown(unknown, said("Unknown")))
-        ),
-        arrows,
+    return Step(
+        said("Loop of {joint}", joint=marked(joint.name)),
+        (*(Equation(*pair) for pair in (bold, *parts)), Unknown(unknown, said("Unknown"))),
     )
 
 
-def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
+def _ground(work: Work, start: str, end: str) -> LoopSide:
     """Return the vector between two fixed pins, by length and angle where the scene states these."""
     index, vector = work.names.length(start, end), work.points[end] - work.points[start]
     length, angle = (work.given.get(Symbol(letter, index)) for letter in "rθ")
@@ -777,33 +746,30 @@ def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
         vector = along(angle.value).times(length.value)
     elif length and vector.y.constant == 0:
         vector = Components(length.value if vector.x.value > 0 else -length.value, ZERO)
-    return LoopSide(Symbol("R", index, bold=True), vector), work.place(start)
+    return Symbol("R", index, bold=True), vector
+
+
+_Way = tuple[str, list[tuple[Symbol, Components, complex]]]
+"""A whole way to a joint: the fixed pin at which it begins, and its vectors with the places where they do."""
 
 
 class _WaysFromGround:
-    """The whole routes to joints from a fixed pin, each found once."""
+    """The whole ways to joints from a fixed pin, each worked out once."""
 
     def __init__(self, work: Work) -> None:
-        self.work = work
-        self._chains: dict[str, _Chain] = {}
+        self._work = work
+        self._known: dict[str, _Way] = {}
 
-    def along(self, route: Route) -> _Chain:
-        """Return the whole route, from a fixed pin, to where a route leads."""
-        sides, at = [], self.work.place(route.start)
-        for side in route.sides:
-            sides.append((side, at))
-            at += _value(side)
-        before = self._to(route.start)
-        return _Chain(before.root, (*before.sides, *sides))
-
-    def _to(self, name: str) -> _Chain:
-        """Return the route to a joint as its kind chooses it; one without vectors to a fixed pin."""
-        if name not in self._chains:
-            joint = self.work.linkage.joint(name)
+    def along(self, route: Route) -> _Way:
+        """Return the whole way, from a fixed pin, to where a route leads."""
+        start, sides = route
+        if start not in self._known:
+            joint = self._work.linkage.joint(start)
             further = KINDS[type(joint)].route
-            self._chains[name] = self.along(further(joint, self.work)) if further else _Chain(name, ())
-        return self._chains[name]
-
-
-def _value(side: LoopSide) -> complex:
-    return complex(side.vector.x.value, side.vector.y.value)
+            self._known[start] = self.along(further(joint, self._work)) if further else (start, [])
+        root, before = self._known[start]
+        way, at = [*before], self._work.place(start)
+        for symbol, vector in sides:
+            way.append((symbol, vector, at))
+            at += vector.value
+        return root, way

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import degrees
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from linkanim.explain.formula import Formula, Symbol
 from linkanim.explain.solution import INPUT_TITLE, Solution
@@ -26,7 +26,6 @@ from linkanim.explain.steps import (
     System,
     Unknown,
     ValueLine,
-    Words,
     joint_title,
     marked,
     names_of,
@@ -47,11 +46,8 @@ _DIRECTIONS = {
 }
 
 
-class ExamAnswer(NamedTuple):
-    """A number that is asked for: a leaf with its symbol, and its unit."""
-
-    value: Formula
-    unit: str
+ExamAnswer = tuple[Formula, str]
+"""A number that is asked for: a leaf with its symbol, and its unit."""
 
 
 @frozen
@@ -245,8 +241,8 @@ class _Exam:
     def _things(self, answers: Sequence[ExamAnswer], turning: str, sliding: str) -> str:
         """Return what is asked for in words: the angle of the rod and the travel of the slider."""
         named: dict[str, list[str]] = {}
-        for one in answers:
-            symbol = one.value.symbol
+        for value, _ in answers:
+            symbol = value.symbol
             assert symbol is not None
             what = sliding if symbol.letter in "st" else turning
             named.setdefault(what, []).append(self._thing(symbol) or self._line(symbol.sub))
@@ -276,20 +272,20 @@ class _Exam:
 
     def _unknowns(self, loop: Step) -> tuple[ExamAnswer, ...]:
         symbols = [one for item in loop.items if isinstance(item, Unknown) for one in item.symbols]
-        return tuple(ExamAnswer(one, "°" if one.in_degrees else self.scene.length_unit) for one in symbols)
+        return tuple((one, "°" if one.in_degrees else self.scene.length_unit) for one in symbols)
 
     def _position(self, loop: Step, name: str) -> ExamQuestion:
         answers = self._unknowns(loop)
         way = self._steps("Positions", name)
-        hint = next((item.text for item in way[-1].items if isinstance(item, Words)), "") if way else ""
+        hint = next((item for item in way[-1].items if isinstance(item, str)), "") if way else ""
         found = said("Find {things}.", things=self._things(answers, "angle", "travel"))
         text = sentences(found, *self._counted(answers))
         return ExamQuestion(text, answers, 2 * len(answers), _sentence(hint), way)
 
     def _counted(self, answers: Sequence[ExamAnswer]) -> Iterator[str]:
         """Yield from where the travels among the answers are counted."""
-        for one in answers:
-            symbol = one.value.symbol
+        for value, _ in answers:
+            symbol = value.symbol
             if symbol is None or symbol.letter not in "st":
                 continue
             joint = self._sliding(symbol)
@@ -329,7 +325,7 @@ class _Exam:
             if item.value.symbol and item.value.symbol.letter == "θ"
         ]
         if lines:
-            answers = tuple(ExamAnswer(line.value, line.unit) for line in lines[:_MOST_DYADS])
+            answers = _answers(lines[:_MOST_DYADS])
             way = self._steps("Positions", self._last)
             yield ExamQuestion(
                 said("Find {things}.", things=self._things(answers, "angle", "travel")),
@@ -415,7 +411,7 @@ class _Exam:
     def _whole(self) -> Iterator[ExamQuestion]:
         """Yield the question on stroke or swing and time ratio, or on how far the input goes."""
         centres = self._chapter("Dead centres and time ratio")
-        words = [item.text for item in centres.items if isinstance(item, Words)]
+        words = [item for item in centres.items if isinstance(item, str)]
         lines = [item for item in centres.items if isinstance(item, ValueLine)]
         ends = [
             one for one in lines if one.value.symbol in (Symbol("H"), Symbol("ψ", "swing"), Symbol("T", "R"))
@@ -466,7 +462,7 @@ class _Exam:
                 and result.value.symbol
                 and len(first.setdefault(joint, [])) < 1 + (axis == "y")
             ):
-                first[joint].append(ExamAnswer(result.value, result.unit))
+                first[joint].append((result.value, result.unit))
         parts = ("Centres of mass", "Springs and dampers", "Forces")
         way = tuple(step for title in parts for step in self._chapter(title).steps)
         lines = [item for step in way for item in step.items if isinstance(item, ValueLine)]
@@ -532,18 +528,18 @@ _ROTATE_RATE = (
 
 
 def _answers(lines: Iterable[ValueLine]) -> tuple[ExamAnswer, ...]:
-    return tuple(ExamAnswer(line.value, line.unit) for line in lines)
+    return tuple((line.value, line.unit) for line in lines)
 
 
 def _as_places(answers: Sequence[ExamAnswer]) -> list[ExamAnswer]:
     """Return coefficients by the symbols of what they are derivatives of, to be named."""
     letters = {"h": "θ", "f": "s", "g": "t"}
-    answers_left = []
-    for one in answers:
-        assert one.value.symbol is not None
-        symbol = Symbol(letters[one.value.symbol.letter], one.value.symbol.sub)
-        answers_left.append(ExamAnswer(replace(one.value, symbol=symbol), one.unit))
-    return answers_left
+    places: list[ExamAnswer] = []
+    for value, unit in answers:
+        assert value.symbol is not None
+        symbol = Symbol(letters[value.symbol.letter], value.symbol.sub)
+        places.append((replace(value, symbol=symbol), unit))
+    return places
 
 
 def _is_place(line: ValueLine, joint: str) -> bool:

@@ -10,11 +10,13 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import Any, Literal
+
+import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.explain.forces import Balance, FreeBody, forces
@@ -33,16 +35,15 @@ from linkanim.explain.formula import (
     sqrt,
     square,
 )
-from linkanim.explain.joints import KINDS, LoopArrow, VectorLoop, body_point, half_angle, loops_of
+from linkanim.explain.joints import KINDS, Arrows, body_point, half_angle, loops_of
 from linkanim.explain.steps import (
     ANGLE,
-    BY_INPUT,
     HALF,
-    IN_TIME,
     LENGTH,
     ORDERS,
     RATIO,
     Chapter,
+    Coordinate,
     Order,
     Outcome,
     Powers,
@@ -50,7 +51,6 @@ from linkanim.explain.steps import (
     Scale,
     Step,
     SymbolNames,
-    Words,
     Work,
     decimals,
     joint_title,
@@ -63,7 +63,18 @@ from linkanim.explain.whole_motion import whole_motion
 from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.groups import group_of
-from linkanim.mechanics.linkage import RRR, Body, Crank, CrankTriangle, Cylinder, Damper, Load, Spring, Travel
+from linkanim.mechanics.linkage import (
+    RRR,
+    Body,
+    Crank,
+    CrankTriangle,
+    Cylinder,
+    Damper,
+    Load,
+    Spring,
+    Travel,
+    holding,
+)
 from linkanim.mechanics.measures import loaded
 from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.quantities import called, input_symbol, link_labels
@@ -219,22 +230,13 @@ def centre_of_mass(body: Body, rates: Rates) -> Iterator[Outcome]:
     """Add where a body's centre of mass is and how it moves, and yield it."""
     assert body.com is not None
     work, on = rates.work, (body.joints[0], body.joints[1])
-    name = centre_name(body, rates)
+    name = work.centre(body)
     arm = body_point(work, on, body.com, (Symbol("p", name), Symbol("q", name)))
     work.let_point(name, work.points[on[0]] + arm)
     yield from work.scale.outcomes(f"{body.name}.{_WORDS[0]}", work.points[name], 0)
     for order in ORDERS:
         rates.let_carried(name, on, work.points[name] - work.points[on[0]], order)
         yield from work.scale.outcomes(f"{body.name}.{_WORDS[order]}", rates.of(name, order), order)
-
-
-def centre_name(body: Body, rates: Rates) -> str:
-    """Return the name of a body's centre of mass: G3, or GG3 where a joint is called G3."""
-    linkage = rates.work.linkage
-    name = f"G{link_labels(linkage)[body.name]}"
-    while any(joint.name == name for joint in linkage.joints):
-        name = f"G{name}"
-    return name
 
 
 def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
@@ -329,7 +331,7 @@ def _pace(rates: Rates) -> Formula:
         length = sqrt(square(span.x) + square(span.y))
         return rates.let(Symbol("ℓ", "", "˙"), dot(span, moving) / length, Powers(1, 1)) * _metre(rates)
     pace = rates.rate(work.driver, 1)
-    return pace if isinstance(work.driver, int) else pace * _metre(rates)
+    return pace if work.driver[0] == "θ" else pace * _metre(rates)
 
 
 def _forceful(rates: Rates) -> list[Spring | Damper]:
@@ -348,7 +350,7 @@ def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula
     for body in work.linkage.bodies:
         label = link_labels(work.linkage)[body.name]
         if body.mass is not None:
-            at = body.slider or centre_name(body, rates)
+            at = body.slider or work.centre(body)
             velocity = rates.of(at, 1)
             pull = ZERO if work.linkage.static else dot(rates.of(at, 2), velocity) * square(metre)
             if work.linkage.gravity:
@@ -453,18 +455,21 @@ _SINGULAR = to_say(
 
 @frozen
 class Solution:
-    """A pose worked out: chapters in reading order, loops to draw, results, and where joints lie (x + yi)."""
+    """A pose worked out: chapters in reading order, results, and where joints lie (x + yi).
+
+    `arrows` are the vectors of its loops; none where it has no loop.
+    """
 
     request: PoseRequest
     chapters: tuple[Chapter, ...]
-    loops: tuple[VectorLoop, ...]
+    arrows: Arrows
     results: tuple[Outcome, ...]
     places: dict[str, complex]
     singular: bool
     made: bool = False
     """Whether the last chapter says how the linkage was made."""
     bodies: tuple[FreeBody, ...] = ()
-    """Each body free, where forces were asked for."""
+    """Each body on which anything acts, free, where forces were asked for."""
 
     @property
     def loop_chapter(self) -> Chapter:
@@ -482,11 +487,6 @@ class Solution:
         return self.chapters[-1] if self.made else None
 
     @property
-    def arrows(self) -> tuple[LoopArrow, ...]:
-        """The vectors of all loops, each once."""
-        return tuple({arrow.symbol: arrow for loop in self.loops for arrow in loop.arrows}.values())
-
-    @property
     def phase(self) -> float:
         """The phase of the pose."""
         return float(self.request.motion().phase)
@@ -500,6 +500,31 @@ class Solution:
     def title(self) -> str:
         """The title of the scene."""
         return said(self.request.scene.title)
+
+    def body_title(self, body: FreeBody) -> str:
+        """Return what a free body is called."""
+        scene = self.request.scene
+        own = next((one for one in scene.linkage.bodies if one.name == body.name), None)
+        return called(own, scene.info.link_names) if own else said("Bar {name}", name=body.name)
+
+    def joints_of(self, body: FreeBody) -> dict[str, complex]:
+        """Return the joints of a free body and where they lie."""
+        linkage = self.request.scene.linkage
+        own = next((one for one in linkage.bodies if one.name == body.name), None)
+        names: Collection[str] = (body.about,)
+        if own is not None and own.slider:
+            names = (own.slider,)
+        else:
+            pair = tuple(body.name.split("–")) if own is None else own.joints
+            if (own or len(pair) > 1) and (n := holding(linkage.rigid_bodies, pair)):
+                names = linkage.rigid_bodies[n]
+        return {name: self.places[name] for name in names}
+
+    @property
+    def spread(self) -> float:
+        """The width or height of the largest free body."""
+        each = (np.array([*self.joints_of(body).values()]) for body in self.bodies)
+        return max((float(max(np.ptp(places.real), np.ptp(places.imag))) for places in each), default=0.0)
 
     @property
     def where(self) -> tuple[Symbol | str, str]:
@@ -542,7 +567,7 @@ def _carried(solution: Solution) -> Iterator[Step]:
     """Yield the sentence on the digits of a solution, where it has rates."""
     if not solution.singular:
         fewer = any(_has_fewer(result.value, true) for result, true in _compared(solution))
-        yield Step("", (Words(said(_FEWER if fewer else _CARRIED)),))
+        yield Step("", (said(_FEWER if fewer else _CARRIED),))
 
 
 def _has_fewer(value: Formula, true: float) -> bool:
@@ -622,35 +647,35 @@ class _Draft:
         self.work = Work(self.linkage, names, self.motion, scale, places)
         rate, per = (1.0, "") if angular else (1.0 / length, scale.unit)
         by = Scale(digits, scale.unit, length, rate, per)
-        self.slopes = Rates(self.work, BY_INPUT, by)
-        self.rates = Rates(self.work, IN_TIME, scale, slopes=self.slopes)
+        self.slopes = Rates(self.work, by)
+        self.rates = Rates(self.work, scale, self.slopes)
         self.results: list[Outcome] = []
-        self.loops: tuple[VectorLoop, ...] = ()
+        self.looped = False
         self.steps: list[Step] = []
         self.bodies: tuple[FreeBody, ...] = ()
 
     def solution(self, rates: bool) -> Solution:
         """Return the solution, with velocities and accelerations if `rates`."""
         places = self._placed()
-        loops = loops_of(self.work, places)
-        self.loops = loops
+        loops, arrows = loops_of(self.work, places)
+        self.looped = bool(loops)
         halves = self._half_angles()
         self.work.items.clear()
         if rates:
             by_input = self._by_input()
             rest = [*by_input, *self._in_time(has_coefficients=bool(by_input)), *self._parts()]
         else:
-            rest = [Chapter(said("Velocities and accelerations"), (Step("", (Words(said(_SINGULAR)),)),))]
+            rest = [Chapter(said("Velocities and accelerations"), (Step("", (said(_SINGULAR),)),))]
         given = Chapter(said("Given"), (Step("", tuple(self.work.given.values())),))
         without = _NO_LOOP if group_of(self.linkage) is None else _TOGETHER
-        steps = tuple(loop.step for loop in loops) or (Step("", (Words(said(without)),)),)
+        steps = tuple(loops) or (Step("", (said(without),)),)
         made = synthesis(self.request.scene, self.work.names)
         chapters = (given, Chapter(said("Vector loops"), steps), places, *halves, *rest, *made)
         known = self.request.scene.quantities
         # where two parts have one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
         at = {joint.name: self.work.place(joint.name) for joint in self.linkage.joints}
-        return Solution(self.request, chapters, loops, results, at, not rates, bool(made), self.bodies)
+        return Solution(self.request, chapters, arrows, results, at, not rates, bool(made), self.bodies)
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
         """Add a step with the lines that `write` adds; no step where it adds none."""
@@ -696,7 +721,7 @@ class _Draft:
     def _by_input(self) -> list[Chapter]:
         """Return the chapter of kinematic coefficients; none where nothing but a driven slider moves."""
         self.slopes.start(ONE)
-        derived = said(_BY_INPUT) if self.loops else ""
+        derived = said(_BY_INPUT) if self.looped else ""
         self._step("", partial(self.work.say, sentences(said(_PRIMES), derived)))
         begun = len(self.steps)
         for order, token in zip(ORDERS, ("", "second_"), strict=True):
@@ -719,7 +744,7 @@ class _Draft:
                 self.results += self.rates.scale.outcomes(f"{joint.name}.{word}", moving, order)
             self._tell_links(self.rates, order, f"angular_{word}", f"travel_{word}")
             self._step(said("Sizes"), partial(self._sizes, order, word))
-            if self.loops:
+            if self.looped:
                 check = said(
                     "Check: inserted in the differentiated loops, these values leave a residual of at most "
                     "{most}.",
@@ -750,11 +775,15 @@ class _Draft:
 
     def _tell_links(self, rates: Rates, order: Order, turning: str, sliding: str) -> None:
         for body in self.linkage.bodies:
-            frame = body.slider or self.work.frame((body.joints[0], body.joints[1]))
-            if (frame, "s") in rates.known:
+            coordinate: Coordinate = (
+                ("s", body.slider)
+                if body.slider
+                else ("θ", self.work.frame((body.joints[0], body.joints[1])))
+            )
+            if coordinate in rates.known:
                 token = f"{body.name}.{sliding if body.slider else turning}"
                 measure = Powers(int(body.slider is not None), order)
-                self.results.append(rates.scale.outcome(token, rates.rate(frame, order), measure))
+                self.results.append(rates.scale.outcome(token, rates.rate(coordinate, order), measure))
 
     def _parts(self) -> Iterator[Chapter]:
         """Yield the chapters of centres of mass, springs and dampers, and of the input's torque or force."""
@@ -781,11 +810,13 @@ class _Draft:
                 "forces in joints of links that are solved together are not derived line by line;"
                 " `linkanim solve` and `linkanim chart` have them"
             )
-        balance = Balance(self.rates, known, self.motion, lambda body: centre_name(body, self.rates))
-        balanced = forces(balance, self.request.about)
-        self.results += balanced.results
-        self.bodies = balanced.bodies
-        yield Chapter(said(FORCES), balanced.steps)
+        balance = Balance(self.rates, known, self.motion, self.request.about)
+        steps = forces(balance)
+        self.results += balance.results
+        self.bodies = tuple(
+            body for member, body in balance.bodies.items() if member and (body.forces or body.couples)
+        )
+        yield Chapter(said(FORCES), steps)
 
     def _step_with_results(self, title: str, outcomes: Iterable[Outcome]) -> None:
         """Add a step with its results."""

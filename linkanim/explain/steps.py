@@ -6,7 +6,6 @@ Its parts, in reading order:
 - The symbols of a worked solution: those of the figure's dimensions and of the scene's links.
 - A worked solution while it is put together: what is known so far, each number in the digits it shows.
 - Velocities and accelerations, or kinematic coefficients: those known so far, and their lines.
-- Vectors from joint to joint, of which loops are made.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from linkanim.explain.formula import (
     square,
 )
 from linkanim.frozen import frozen
-from linkanim.mechanics.linkage import Crank, Damper, Joint, Linkage, Spring, holding
+from linkanim.mechanics.linkage import Body, Crank, Damper, Linkage, Spring, holding
 from linkanim.mechanics.linkage import Line as Travel
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import link_labels
@@ -42,13 +41,6 @@ from linkanim.units import signed
 from linkanim.words import said, to_say
 
 # The parts of a worked solution, in any kind of document: chapters, steps, lines.
-
-
-@frozen
-class Words:
-    """A sentence; names of joints in it are `marked`."""
-
-    text: str
 
 
 def marked(joint: str) -> str:
@@ -98,27 +90,14 @@ class Equation:
 
 @frozen
 class System:
-    """Two linear equations for two unknowns: formulas, the same with numbers, then the values.
+    """Linear equations: the unknowns, and rows of the matrix, each with its right side behind it.
 
-    `formulas` are the rows of the matrix, each with its right side behind it; `values` are leaves.
+    `values` are leaves; `formulas`, of two equations, what they follow from.
     """
-
-    unknowns: tuple[Symbol, Symbol]
-    formulas: tuple[tuple[Formula, Formula, Formula], tuple[Formula, Formula, Formula]]
-    values: tuple[tuple[Formula, Formula, Formula], tuple[Formula, Formula, Formula]]
-
-    @property
-    def worked_out(self) -> bool:
-        """Whether any entry is a formula, more than a number that is known already."""
-        return any(entry.operation != "leaf" for row in self.formulas for entry in row)
-
-
-@frozen
-class LargeSystem:
-    """Several linear equations: the unknowns, and rows of the matrix, each with its right side behind it."""
 
     unknowns: tuple[Symbol, ...]
     values: tuple[tuple[Formula, ...], ...]
+    formulas: tuple[tuple[Formula, ...], ...] = ()
 
 
 @frozen
@@ -129,7 +108,8 @@ class Unknown:
     words: str
 
 
-Item = Words | ValueLine | Given | Equation | System | LargeSystem | Unknown
+Item = str | ValueLine | Given | Equation | System | Unknown
+"""What stands in a step. A text is a sentence; names of joints in it are `marked`."""
 
 
 @frozen
@@ -325,7 +305,7 @@ class Work:
 
     def say(self, text: str) -> None:
         """Add a sentence; its numbers have true minus signs."""
-        self.items.append(Words(signed(text)))
+        self.items.append(signed(text))
 
     def say_once(self, text: str) -> None:
         """Add a sentence if it was not added before."""
@@ -419,6 +399,13 @@ class Work:
         x = self.let(Symbol("x", joint), place.x, LENGTH)
         self.points[joint] = Components(x, self.let(Symbol("y", joint), place.y, LENGTH))
 
+    def centre(self, body: Body) -> str:
+        """Return the name of a body's centre of mass: G3, or GG3 where a joint is called G3."""
+        name = f"G{link_labels(self.linkage)[body.name]}"
+        while name in self.linkage.by_name:
+            name = f"G{name}"
+        return name
+
     def frame(self, ends: tuple[str, str]) -> int:
         """Return the number of the rigid body that has both joints; 0 is the ground."""
         number = holding(self.linkage.rigid_bodies, ends)
@@ -426,15 +413,15 @@ class Work:
         return number
 
     @property
-    def driver(self) -> int | str:
-        """The input: the number of the crank's rigid body, or the name of the slider's joint.
+    def driver(self) -> Coordinate:
+        """The input: the angle of the crank's rigid body, or the slider's travel.
 
-        Of a motor between two links that move it is `BETWEEN`.
+        Of a motor between two links that move it is the angle `BETWEEN` them.
         """
         joint = self.linkage.driven.joint
         if joint.motor:
-            return BETWEEN
-        return self.frame((joint.pivot, joint.name)) if isinstance(joint, Crank) else joint.name
+            return "θ", BETWEEN
+        return ("θ", self.frame((joint.pivot, joint.name))) if isinstance(joint, Crank) else ("s", joint.name)
 
     def guide(self, line: Travel, joint: str) -> GuideLine:
         """Return a joint's line of travel; its angle is worked out where a body carries it."""
@@ -449,7 +436,7 @@ class Work:
         sides = said("its guide's offset to the left"), said("its guide's offset to the right")
         offset = self.sided(Symbol("e", joint), line.offset, *sides)
         frame = self.frame(line.on) if line.on else 0
-        return GuideLine(line.through, along(angle), offset, frame, angle)
+        return GuideLine(line.through, offset, frame, angle)
 
     def bar(self, start: str, end: str, value: float) -> Components:
         """Return a bar as a vector, by its length and its angle."""
@@ -457,17 +444,44 @@ class Work:
 
     def place(self, joint: str) -> complex:
         """Return where a joint lies, as x + yi."""
-        return complex(self.points[joint].x.value, self.points[joint].y.value)
+        return self.points[joint].value
+
+
+LoopSide = tuple[Symbol, Components]
+"""A vector of a loop: its symbol, and its components as formulas."""
 
 
 class GuideLine(NamedTuple):
-    """A line of travel: a joint it runs through, its direction, angle and offset, and the body it is on."""
+    """A line of travel: a joint it runs through, its offset, the body it is on, and its angle."""
 
     through: str
-    direction: Components
     offset: Formula
     frame: int
     angle: Formula
+
+    @property
+    def direction(self) -> Components:
+        """The unit vector along it."""
+        return along(self.angle)
+
+    def point(self, work: Work, slide: Formula) -> Components:
+        """Return the point at the distance `slide` along it."""
+        u = self.direction
+        return work.points[self.through] + u.times(slide) + u.left().times(self.offset)
+
+    def let_beside(self, work: Work, point: str, joint: str) -> tuple[Formula, Formula]:
+        """Add how far a point lies along a joint's guide, and how far to its left; return both."""
+        arm, u = work.points[point] - work.points[self.through], self.direction
+        forward = work.let(Symbol("p", joint), arm.x * u.x + arm.y * u.y, LENGTH)
+        return forward, work.let(Symbol("n", joint), arm.y * u.x - arm.x * u.y - self.offset, LENGTH)
+
+    def sides(self, work: Work, joint: str) -> tuple[LoopSide, ...]:
+        """Return the vectors of a joint's travel: along the guide, and across it where that is offset."""
+        index = work.names.slide(joint).sub
+        sides = [(Symbol("S", index, bold=True), self.direction.times(work.slides[joint]))]
+        if self.offset.constant != 0:
+            sides.append((Symbol("E", joint, bold=True), self.direction.left().times(self.offset)))
+        return tuple(sides)
 
 
 def decimals(value: float, digits: int) -> int:
@@ -495,42 +509,21 @@ HALF = 0.5001
 Order = Literal[1, 2]
 ORDERS: tuple[Order, Order] = (1, 2)
 Row = tuple[Formula, Formula, Formula]
-Mark = Literal["˙", "¨", "′", "″"]
 
 
-class Letters(NamedTuple):
-    """The symbols of rates of the first and the second order: of angles, of travels, of coordinates.
-
-    A travel is along a guide, s, or along a slot that crosses it, t.
-    """
-
-    turning: tuple[Symbol, Symbol]
-    sliding: Mapping[str, tuple[Symbol, Symbol]]
-    moving: tuple[Mark, Mark]
-
-
-IN_TIME = Letters(
-    (Symbol("ω"), Symbol("α")),
-    {along: (Symbol(along, mark="˙"), Symbol(along, mark="¨")) for along in "st"},
-    ("˙", "¨"),
-)
-BY_INPUT = Letters(
-    (Symbol("h"), Symbol("h", mark="′")),
-    {along: (Symbol(letter), Symbol(letter, mark="′")) for along, letter in {"s": "f", "t": "g"}.items()},
-    ("′", "″"),
-)
-
-
-Coordinate = int | str
-"""A variable with a rate: a rigid body's angle, by its number, or a slider's travel, by its joint."""
-
-
-class UnknownRate(NamedTuple):
-    """An unknown of two equations: the variable whose rate it is, its column, and the letter of a travel."""
-
-    coordinate: Coordinate
-    column: Components
-    letter: str = "s"
+Coordinate = tuple[Literal["θ", "s", "t"], int | str]
+"""A variable with a rate: a rigid body's angle by its number, or a joint's travel along its guide or slot."""
+FIXED: Coordinate = ("θ", 0)
+"""The ground's angle."""
+_IN_TIME = {
+    "θ": (Symbol("ω"), Symbol("α")),
+    **{letter: (Symbol(letter, mark="˙"), Symbol(letter, mark="¨")) for letter in "stxy"},
+}
+_BY_INPUT = {
+    **{of: (Symbol(letter), Symbol(letter, mark="′")) for of, letter in zip("θst", "hfg", strict=True)},
+    **{letter: (Symbol(letter, mark="′"), Symbol(letter, mark="″")) for letter in "xy"},
+}
+"""The symbols of the rates of the first and the second order, by the letters of variables."""
 
 
 _SHORT = 3
@@ -542,15 +535,12 @@ class Rates:
     """The rates known so far, of the first order and then of the second, and each strut's force and rate."""
 
     work: Work
-    letters: Letters
     scale: Scale
-    known: dict[tuple[Coordinate, str], list[Formula]] = field(
-        default_factory=lambda: {(0, "s"): [ZERO, ZERO]}
-    )
+    slopes: Rates | None = None
+    """Of rates in time the coefficients, from which they follow by the chain rule; None of coefficients."""
+    known: dict[Coordinate, list[Formula]] = field(default_factory=lambda: {FIXED: [ZERO, ZERO]})
     moving: dict[str, list[Components]] = field(default_factory=dict)
     struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
-    slopes: Rates | None = None
-    """The coefficients, from which rates in time follow by the chain rule."""
     residual: float = 0.0
     """The most by which rates from coefficients miss the differentiated loops."""
 
@@ -560,115 +550,123 @@ class Rates:
 
     def start(self, rate: Formula, second: Formula = ZERO) -> None:
         """Set the input's rates: those of its body, or of its slider."""
-        self.known[self.work.driver, "s"] = [rate, second]
+        self.known[self.work.driver] = [rate, second]
 
-    def let_rate(self, coordinate: Coordinate, formula: Formula, order: Order, letter: str = "s") -> Formula:
+    def let_rate(self, coordinate: Coordinate, formula: Formula, order: Order) -> Formula:
         """Add the line that says how a rigid body turns, or how fast something slides."""
-        measure = Powers(int(isinstance(coordinate, str)), order)
-        rate = self.let(self.symbol(coordinate, order, letter), formula, measure)
-        self.known.setdefault((coordinate, letter), []).append(rate)
+        measure = Powers(int(coordinate[0] != "θ"), order)
+        rate = self.let(self.symbol(coordinate, order), formula, measure)
+        self.known.setdefault(coordinate, []).append(rate)
         return rate
 
     def let_solved(self, frame: int, order: Order) -> None:
         """Add the line that says how a rigid body of a group turns: as solved, or by the chain rule."""
+        turns: Coordinate = ("θ", frame)
         if self.slopes is not None:
-            self.let_rate(frame, self._chain(self.slopes.known[frame, "s"], order), order)
+            self.let_rate(turns, self._chain(self.slopes.known[turns], order), order)
             return
         first, second, *_ = self.work.linkage.rigid_bodies[frame]
         pose = self.work.pose.per_input
         kinds = (pose.position, (pose.velocity, pose.acceleration)[order - 1])
         arm, rate = (complex(*kind[second]) - complex(*kind[first]) for kind in kinds)
         turning = (arm.conjugate() * rate).imag / abs(arm) ** 2
-        symbol, measure = self.symbol(frame, order), Powers(0, order)
-        value = self.work.solved(symbol, turning, measure, self.scale)
-        self.known.setdefault((frame, "s"), []).append(value)
+        value = self.work.solved(self.symbol(turns, order), turning, Powers(0, order), self.scale)
+        self.known.setdefault(turns, []).append(value)
 
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
         """Add the lines that say how a joint moves."""
-        mark, measure = self.letters.moving[order - 1], Powers(1, order)
         slopes = self.slopes.moving.get(joint, []) if self.slopes else []
         if slopes:
             formula = Components(
                 self._chain([one.x for one in slopes], order), self._chain([one.y for one in slopes], order)
             )
-        x = self.let(Symbol("x", joint, mark), formula.x, measure)
-        y = self.let(Symbol("y", joint, mark), formula.y, measure)
-        self.moving.setdefault(joint, []).append(Components(x, y))
+        places = zip(self.moving_symbols(joint, order), formula, strict=True)
+        moving = Components(*(self.let(symbol, one, Powers(1, order)) for symbol, one in places))
+        self.moving.setdefault(joint, []).append(moving)
 
     def let_carried(self, joint: str, on: tuple[str, str], arm: Components, order: Order) -> None:
         """Add the lines of how a point of a rigid body moves, `arm` from the first of two joints `on` it."""
         self.let_moving(joint, self.of(on[0], order) + self.carried(self.work.frame(on), arm, order), order)
 
-    def symbol(self, coordinate: Coordinate, order: Order, letter: str = "s") -> Symbol:
+    def symbol(self, coordinate: Coordinate, order: Order) -> Symbol:
         """Return the symbol of how a rigid body turns, or of how fast something slides."""
-        if isinstance(coordinate, int):
-            return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(coordinate))
-        symbol = self.letters.sliding[letter][order - 1]
-        return symbol._replace(sub=self.work.names.slide(coordinate).sub)
+        letter, of = coordinate
+        names = self.work.names
+        return self._letter(letter, names.turning(of) if isinstance(of, int) else names.slide(of).sub, order)
+
+    def moving_symbols(self, joint: str, order: Order) -> tuple[Symbol, Symbol]:
+        """Return the symbols of how a joint moves: of x and of y."""
+        return self._letter("x", joint, order), self._letter("y", joint, order)
+
+    def _letter(self, letter: str, index: str, order: Order) -> Symbol:
+        return (_BY_INPUT if self.slopes is None else _IN_TIME)[letter][order - 1]._replace(sub=index)
 
     def of(self, joint: str, order: Order) -> Components:
         """Return how a joint moves."""
         return self.moving[joint][order - 1]
 
-    def rate(self, coordinate: Coordinate, order: Order, letter: str = "s") -> Formula:
+    def rate(self, coordinate: Coordinate, order: Order) -> Formula:
         """Return how a rigid body turns, or how fast something slides."""
-        return self.known[coordinate, letter][order - 1]
+        return self.known[coordinate][order - 1]
+
+    def turning(self, frame: int, order: Order) -> Formula:
+        """Return how a rigid body turns."""
+        return self.rate(("θ", frame), order)
 
     def carried(self, frame: int, arm: Components, order: Order) -> Components:
         """Return the relative velocity, or acceleration, of a rigid body's point at `arm` from another."""
-        turn = arm.left().times(self.rate(frame, order))
+        turn = arm.left().times(self.turning(frame, order))
         return turn if order == 1 else turn - self.centripetal(frame, arm)
 
     def centripetal(self, frame: int, arm: Components) -> Components:
         """Return ω² times an arm."""
-        return arm.times(square(self.rate(frame, 1)))
+        return arm.times(square(self.turning(frame, 1)))
 
-    def guided(self, guide: GuideLine, joint: str, order: Order, *sliding: UnknownRate) -> Components:
+    def guided(
+        self, guide: GuideLine, joint: str, order: Order, sliding: Mapping[Coordinate, Components]
+    ) -> Components:
         """Return how that point of a guide's carrier moves which lies under a joint.
 
-        The second order includes the Coriolis acceleration of what is `sliding` there.
+        The second order includes the Coriolis acceleration of what is `sliding` there, by its directions.
         """
         arm = self.work.points[joint] - self.work.points[guide.through]
         base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
         if order == 1:
             return base
-        slid = sum((one.column.times(self.rate(one.coordinate, 1, one.letter)) for one in sliding), NOWHERE)
-        return base + slid.left().times(TWO * self.rate(guide.frame, 1))
+        slid = sum((way.times(self.rate(one, 1)) for one, way in sliding.items()), NOWHERE)
+        return base + slid.left().times(TWO * self.turning(guide.frame, 1))
 
     def solve(
-        self, index: str, unknowns: tuple[UnknownRate, UnknownRate], right: Components, order: Order
+        self, index: str, unknowns: Mapping[Coordinate, Components], right: Components, order: Order
     ) -> None:
         """Add the two equations and their solution; ZeroDivisionError where they have none.
 
-        In time each rate follows from its coefficient, and the equations are the check.
+        `unknowns` are the two variables, each with the column of its rate. In time each rate follows from its
+        coefficient, and the equations are the check.
         """
         if self.slopes is not None:
-            known = (self.slopes.known[one.coordinate, one.letter] for one in unknowns)
-            chained = [self._chain(slopes, order) for slopes in known]
-            rates = [
-                self.let_rate(one.coordinate, formula, order, one.letter)
-                for one, formula in zip(unknowns, chained, strict=True)
-            ]
-            sides = (one.column.times(rate) for one, rate in zip(unknowns, rates, strict=True))
+            chained = [self._chain(self.slopes.known[one], order) for one in unknowns]
+            rates = [self.let_rate(*one, order) for one in zip(unknowns, chained, strict=True)]
+            sides = (column.times(rate) for column, rate in zip(unknowns.values(), rates, strict=True))
             miss = sum(sides, NOWHERE) - right
             self.residual = max(self.residual, abs(miss.x.value), abs(miss.y.value))
             return
-        one, other = (unknown.column for unknown in unknowns)
-        left, beside = (LENGTH if isinstance(unknown.coordinate, int) else RATIO for unknown in unknowns)
-        first, second = (self.symbol(unknown.coordinate, order, unknown.letter) for unknown in unknowns)
+        one, other = unknowns.values()
+        left, beside = (LENGTH if letter == "θ" else RATIO for letter, _ in unknowns)
+        first, second = (self.symbol(unknown, order) for unknown in unknowns)
         measures = left, beside, Powers(1, order)
         right = self._right(right, measures[2])
         formulas = (one.x, other.x, right.x), (one.y, other.y, right.y)
         values = self._row(formulas[0], measures, 1), self._row(formulas[1], measures, 2)
         (a, b, c), (d, e, f) = values
-        self.work.items.append(System((first, second), formulas, values))
+        self.work.items.append(System((first, second), values, formulas))
         det = self.let(Symbol("D", index), a * e - b * d, Powers(left.length + beside.length))
         for unknown, formula in zip(unknowns, (c * e - b * f, a * f - d * c), strict=True):
-            self.let_rate(unknown.coordinate, formula / det, order, unknown.letter)
+            self.let_rate(unknown, formula / det, order)
 
     def _chain(self, slopes: Sequence[Formula], order: Order) -> Formula:
         """Return the rate with coefficients h, h′: h·θ̇ of the first order, h′·θ̇² + h·θ̈ of the second."""
-        rate, second = self.known[self.work.driver, "s"]
+        rate, second = self.known[self.work.driver]
         return slopes[0] * rate if order == 1 else slopes[1] * square(rate) + slopes[0] * second
 
     def _right(self, right: Components, measure: Powers) -> Components:
@@ -687,37 +685,3 @@ class Rates:
         if formula.constant is not None or (formula.symbol and formula.symbol.letter == "b"):
             return formula
         return Formula("leaf", symbol=symbol, shown=rounded(formula.value, self.scale.decimals(measure)))
-
-
-# Vectors from joint to joint, of which loops are made.
-
-
-class LoopSide(NamedTuple):
-    """One vector of a loop: its symbol, and its components as formulas."""
-
-    symbol: Symbol
-    vector: Components
-
-
-class Route(NamedTuple):
-    """A route from a joint along vectors."""
-
-    start: str
-    sides: tuple[LoopSide, ...]
-
-
-def route_of_bar(joint: Joint, work: Work, which: int = 0) -> Route:
-    """Return the route to a joint along one of its bars."""
-    start, length = joint.bars[which]
-    symbol = Symbol("R", work.names.length(start, joint.name), bold=True)
-    return Route(start, (LoopSide(symbol, work.bar(start, joint.name, length)),))
-
-
-def slide_sides(work: Work, guide: GuideLine, joint: str) -> tuple[LoopSide, ...]:
-    """Return the vectors of a travel: along the guide, and across it where the guide is offset."""
-    slide = work.slides[joint]
-    index = work.names.slide(joint).sub
-    sides = [LoopSide(Symbol("S", index, bold=True), guide.direction.times(slide))]
-    if guide.offset.constant != 0:
-        sides.append(LoopSide(Symbol("E", joint, bold=True), guide.direction.left().times(guide.offset)))
-    return tuple(sides)

@@ -112,7 +112,7 @@ class _Chapter:
     ) -> tuple[Formula, Formula]:
         """Add two equations and their solution by Cramer's rule; `measures`: determinant, both unknowns."""
         (a, b, c), (d, e, f) = rows
-        self.work.items.append(System(unknowns, ((a, b, c), (d, e, f)), ((a, b, c), (d, e, f))))
+        self.work.items.append(System(unknowns, rows, rows))
         det = self.work.let(Symbol("D"), a * e - b * d, measures[0])
         first = self.work.let(unknowns[0], (c * e - b * f) / det, measures[1])
         return first, self.work.let(unknowns[1], (a * f - d * c) / det, measures[2])

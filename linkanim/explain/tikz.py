@@ -8,7 +8,6 @@ import numpy as np
 
 from linkanim.explain.forces import FreeBody, symbol_of
 from linkanim.explain.formula import LATEX, plain_latex
-from linkanim.explain.free import couples, joints_of, panels, pulls, spread, titled, triangle
 from linkanim.explain.solution import Solution
 
 _WIDE, _HIGH = 13.0, 9.0
@@ -19,16 +18,16 @@ _NEAR = 0.02
 
 def tikz(solution: Solution) -> str:
     """Return the vectors of all loops with their names, and their joints with theirs; "" without a loop."""
-    return "\n".join(_lines(solution)) if solution.loops else ""
+    return "\n".join(_lines(solution)) if solution.arrows else ""
 
 
 def _lines(solution: Solution) -> Iterator[str]:
-    ends = np.array([(one.begin, one.end) for one in solution.arrows])
+    ends = np.array([*solution.arrows.values()])
     scale = min(_WIDE / max(float(np.ptp(ends.real)), 1e-9), _HIGH / max(float(np.ptp(ends.imag)), 1e-9))
     yield r"\begin{center}\begin{tikzpicture}[>=latex]"
-    for one in solution.arrows:
-        begin, end, name = _at(scale * one.begin), _at(scale * one.end), LATEX.symbol(one.symbol)
-        yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${name}$}} {end};"
+    for symbol, ways in solution.arrows.items():
+        begin, end = (_at(scale * place) for place in ways)
+        yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${LATEX.symbol(symbol)}$}} {end};"
     for name, at in solution.places.items():
         if np.abs(ends - at).min() * scale < _NEAR:
             fill = "black" if solution.request.scene.linkage.joint(name).fixed else "white"
@@ -47,14 +46,14 @@ _BAR = "line width=6pt,line join=round,line cap=round,gray!35"
 
 def free_tikz(solution: Solution) -> str:
     """Return the bodies free, one beside the other, and of three forces their triangle; "" for none."""
-    scale = _BODY / max(spread(solution), 1e-12)
-    bodies = [picture for body in panels(solution) for picture in _free_body(solution, body, scale)]
+    scale = _BODY / max(solution.spread, 1e-12)
+    bodies = [picture for body in solution.bodies for picture in _free_body(solution, body, scale)]
     return "\n".join((r"\begin{center}", *bodies, r"\end{center}")) if bodies else ""
 
 
 def _free_body(solution: Solution, body: FreeBody, scale: float) -> Iterator[str]:
-    places = {name: scale * at for name, at in joints_of(solution, body).items()}
-    arrows = [(name, scale * foot, scale * foot + _FORCE * way) for name, foot, way in pulls(body)]
+    places = {name: scale * at for name, at in solution.joints_of(body).items()}
+    arrows = [(name, scale * foot, scale * foot + _FORCE * way) for name, foot, way in body.pulls()]
     corners, middle = [*places.values()], sum(places.values()) / len(places)
     lines = [*_outline(corners), *_couples(body, middle)]
     for name, at in places.items():
@@ -63,10 +62,10 @@ def _free_body(solution: Solution, body: FreeBody, scale: float) -> Iterator[str
         lines += [_node(at + _OFF * _clear_way(ways), LATEX.name(name), "black")]
     for name, foot, head in arrows:
         lines += [_arrow(foot, head), _node(head + _beyond(head - foot), _name(name), _PULL)]
-    title = plain_latex(titled(solution, body))
+    title = plain_latex(solution.body_title(body))
     lines.append(rf"\node[above,font=\bfseries] at (current bounding box.north) {{{title}}};")
     yield _picture(lines)
-    if sides := triangle(body):
+    if sides := body.triangle():
         size = _BODY / max(abs(end - begin) for _, begin, end in sides)
         centre = sum(begin for _, begin, _ in sides) / 3
         lines = [_arrow(size * begin, size * end) for _, begin, end in sides]
@@ -90,7 +89,7 @@ def _outline(corners: list[complex]) -> Iterator[str]:
 
 def _couples(body: FreeBody, middle: complex) -> Iterator[str]:
     """Yield the couples as bent arrows about the body's middle."""
-    for n, (name, value) in enumerate(couples(body)):
+    for n, (name, value) in enumerate(body.turning()):
         radius, way = 0.45 + 0.2 * n, "->" if value > 0 else "<-"
         begin = middle + radius * np.exp(1j * np.radians(-40))
         bow = f"arc[start angle=-40,end angle=160,radius={radius:g}]"

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -109,25 +109,10 @@ def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
     return tuple(chapter for chapter in chapters if chapter.steps)
 
 
-class _Bars(NamedTuple):
-    """A four-bar on the driven crank: its joints, its lengths, and the ground's angle."""
-
-    joints: tuple[str, str, str, str]
-    ground: Formula
-    crank: Formula
-    coupler: Formula
-    output: Formula
-    tilt: Formula
-
-
-class _SliderCrank(NamedTuple):
-    """A slider-crank on the driven crank; its pivot lies `beside` the guide, positive to the left."""
-
-    joint: RRP
-    crank: Formula
-    rod: Formula
-    beside: Formula
-    guide: Formula
+_Bars = tuple[tuple[str, str, str, str], tuple[Formula, Formula, Formula, Formula], Formula]
+"""A four-bar on the driven crank: its joints, its links from the ground on, and the ground's angle."""
+_SliderCrank = tuple[Formula, Formula, Formula, Formula]
+"""Of a slider-crank on the driven crank: crank, rod, the pivot's distance to the guide's left, its angle."""
 
 
 class _WholeMotion:
@@ -175,7 +160,7 @@ class _WholeMotion:
         if self.four_bar is not None and joint.name == self.four_bar.joint:
             self._limits_of_bars(self._bars(self.four_bar))
         elif (bars := self._slider_crank(joint)) is not None:
-            self._limits_of_slider(bars)
+            self._limits_of_slider(joint, bars)
         elif (reach := KINDS[type(joint)].reach) is not None:
             self._bounded(joint, reach)
 
@@ -198,12 +183,11 @@ class _WholeMotion:
         tilt = (
             number("0", in_degrees=True) if level else stated.value if stated else work.angle_of(pivot, fixed)
         )
-        return _Bars(names, ground, crank, coupler, output, tilt)
+        return names, (ground, crank, coupler, output), tilt
 
     def _limits_of_bars(self, bars: _Bars) -> None:
         """Add where coupler and output lie in one line, by the cosine rule with ground and crank."""
-        work, (pivot, pin, joint, fixed) = self.work, bars.joints
-        g, r = bars.ground, bars.crank
+        work, ((pivot, pin, joint, fixed), (g, r, coupler, output), tilt) = self.work, bars
         if g.value * r.value == 0:
             work.say(
                 said(
@@ -229,8 +213,8 @@ class _WholeMotion:
             )
         )
         for name, reach in (
-            ("stretched", bars.coupler + bars.output),
-            ("folded", bars.coupler - bars.output),
+            ("stretched", coupler + output),
+            ("folded", coupler - output),
         ):
             index = name[0]
             turns, change, never = _IN_LINE[name]
@@ -239,7 +223,7 @@ class _WholeMotion:
             )
             if 1 - abs(cosine.value) > _ONE:
                 corner = work.let(Symbol("ψ", index), arccos(cosine), ANGLE)
-                for sign, angle in (("1", bars.tilt + corner), ("2", bars.tilt - corner)):
+                for sign, angle in (("1", tilt + corner), ("2", tilt - corner)):
                     work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
                 work.say(said(turns))
             elif abs(abs(cosine.value) - 1) <= _ONE:
@@ -259,35 +243,33 @@ class _WholeMotion:
         guide = work.guide(joint.line, joint.name)
         to_pivot, u = work.points[pivot] - work.points[guide.through], guide.direction
         beside = to_pivot.y * u.x - to_pivot.x * u.y - guide.offset
-        return _SliderCrank(
-            joint, crank, work.length(joint.end, joint.name, joint.length), beside, guide.angle
-        )
+        return crank, work.length(joint.end, joint.name, joint.length), beside, guide.angle
 
-    def _beside(self, bars: _SliderCrank) -> Formula:
+    def _beside(self, joint: Joint, beside: Formula) -> Formula:
         """Add how far the pivot lies left of the guide, and return its symbol."""
-        return self.work.let(Symbol("c", bars.joint.name), bars.beside, LENGTH)
+        return self.work.let(Symbol("c", joint.name), beside, LENGTH)
 
     @staticmethod
-    def _where_beside(bars: _SliderCrank) -> str:
-        if bars.beside.constant == 0:
+    def _where_beside(beside: Formula) -> str:
+        if beside.constant == 0:
             return said("The crank's pivot lies on the line of the guide.")
         return said("c is the distance of the crank's pivot from the guide, positive to its left.")
 
-    def _limits_of_slider(self, bars: _SliderCrank) -> None:
+    def _limits_of_slider(self, joint: Joint, bars: _SliderCrank) -> None:
         """Add whether the rod reaches the guide from everywhere on the crank's circle."""
-        work, joint, crank, rod = self.work, bars.joint, bars.crank, bars.rod
+        work, end, (crank, rod, aside, guide) = self.work, self.scene.linkage.drive.joint, bars
         work.say(
             sentences(
                 said(
                     "The rod reaches the guide as long as {end} is no farther from the guide than the "
                     "rod's length.",
-                    end=marked(joint.end),
+                    end=marked(end),
                 ),
-                self._where_beside(bars),
-                said("The greatest distance of {end} from the guide is:", end=marked(joint.end)),
+                self._where_beside(aside),
+                said("The greatest distance of {end} from the guide is:", end=marked(end)),
             )
         )
-        beside = self._beside(bars)
+        beside = self._beside(joint, aside)
         farthest = work.let(Symbol("n", "max"), crank + (beside if beside.value >= 0 else -beside), LENGTH)
         if rod.value - farthest.value > _TOUCHES * rod.value:
             work.say(
@@ -316,20 +298,20 @@ class _WholeMotion:
             sine = (reach - beside) / crank
             if abs(sine.value) <= 1 - _ONE:
                 corner = work.let(Symbol("ψ", index), arcsin(sine), ANGLE)
-                for sign, angle in (("1", bars.guide + corner), ("2", bars.guide + _STRAIGHT - corner)):
+                for sign, angle in (("1", guide + corner), ("2", guide + _STRAIGHT - corner)):
                     work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
 
     def _bounded(self, joint: Joint, reach: Callable[[Any, Work], Reach | None]) -> None:
         """Add the bounds within which a dyad closes, and how near the motion comes to them."""
-        distance = reach(joint, self.work)
-        if distance is None:
+        if (reached := reach(joint, self.work)) is None:
             return
+        distance, *bounds = reached
 
         def apart(phases: np.ndarray) -> np.ndarray:
             at = self.scene.solve(phase=phases, derivatives=0).position
-            return distance.of({name: place[:, 0] + 1j * place[:, 1] for name, place in at.items()})
+            return distance({name: place[:, 0] + 1j * place[:, 1] for name, place in at.items()})
 
-        self._say_bounds(joint.name, distance, self._ends(apart))
+        self._say_bounds(joint.name, bounds, self._ends(apart))
 
     def _ends(self, function: Callable[[np.ndarray], np.ndarray]) -> tuple[float, float]:
         """Return the least and the greatest value over one true period."""
@@ -343,8 +325,9 @@ class _WholeMotion:
             ends.append(float(function(np.array([best]))[0]))
         return ends[0], ends[1]
 
-    def _say_bounds(self, joint: str, reach: Reach, ends: tuple[float, float]) -> None:
+    def _say_bounds(self, joint: str, bounds: list[float], ends: tuple[float, float]) -> None:
         unit, least = self.work.scale.unit, _NEAR * self.scene.linkage.longest
+        lowest, highest_ = bounds
         low, high = (significant(end, _DIGITS) for end in ends)
         runs = said(
             "Over the motion this distance lies between {low} {unit} and {high} {unit}",
@@ -352,11 +335,11 @@ class _WholeMotion:
             unit=unit,
             high=high,
         )
-        if reach.low <= 0:
+        if lowest <= 0:
             runs = said("Over the motion this distance is at most {high} {unit}", high=high, unit=unit)
-        elif math.isinf(reach.high):
+        elif math.isinf(highest_):
             runs = said("Over the motion this distance is at least {low} {unit}", low=low, unit=unit)
-        if ends[0] - reach.low > least and reach.high - ends[1] > least:
+        if ends[0] - lowest > least and highest_ - ends[1] > least:
             self.work.say(said("{found}, so it never comes to its bound.", found=runs))
         elif joint in self.scene.mechanism.stops:
             self.work.say(said("{found}. It comes to its bound where the input turns back.", found=runs))
@@ -386,7 +369,7 @@ class _WholeMotion:
         joint = self.scene.linkage.joint(str(slider.slider))
         bars = self._slider_crank(joint) if self._steady and not self.info.change_points else None
         if bars is not None:
-            self._dead_centres_of_slider(bars)
+            self._dead_centres_of_slider(joint, bars)
         else:
             self._searched(slider, self.info.dead_centres, self.info.stroke or 0.0)
 
@@ -396,7 +379,7 @@ class _WholeMotion:
             bars is not None
             and self._steady
             and self._is_crank_rocker
-            and set(bars.joints[2:]) <= set(body.joints)
+            and set(bars[0][2:]) <= set(body.joints)
         ):
             self._dead_centres_of_rocker(bars)
         elif self.info.swing is not None:
@@ -412,20 +395,20 @@ class _WholeMotion:
         bar = self.four_bar
         return bar is not None and bar.margin > 0 and bar.shortest == "input" and not bar.change_points
 
-    def _dead_centres_of_slider(self, bars: _SliderCrank) -> None:
+    def _dead_centres_of_slider(self, joint: Joint, bars: _SliderCrank) -> None:
         """Add stroke and time ratio of a slider-crank whose crank turns fully."""
-        work, crank, rod = self.work, bars.crank, bars.rod
+        work, (crank, rod, aside, _) = self.work, bars
         work.say(
             sentences(
                 said("The slider turns back where crank and rod lie in one line, stretched and folded."),
-                self._where_beside(bars),
+                self._where_beside(aside),
                 said(
                     "Its two extreme positions s, the stroke H, and the angles λ of crank and rod to the "
                     "guide there:"
                 ),
             )
         )
-        beside = self._beside(bars)
+        beside = self._beside(joint, aside)
         square_ = square(beside)
         ends = [
             work.let(Symbol("s", index), sqrt(square(reach) - square_), LENGTH)
@@ -441,7 +424,7 @@ class _WholeMotion:
 
     def _dead_centres_of_rocker(self, bars: _Bars) -> None:
         """Add swing and time ratio of a crank-rocker."""
-        work, (pivot, pin, joint, fixed) = self.work, bars.joints
+        work, ((pivot, pin, joint, fixed), (g, crank, coupler, r), tilt) = self.work, bars
         work.say(
             said(
                 "The rocker turns back where crank and coupler lie in one line, stretched and "
@@ -453,9 +436,8 @@ class _WholeMotion:
                 fixed=marked(fixed),
             )
         )
-        g, r = bars.ground, bars.output
         at_pivot, at_fixed = [], []
-        for index, reach in (("1", bars.coupler + bars.crank), ("2", bars.coupler - bars.crank)):
+        for index, reach in (("1", coupler + crank), ("2", coupler - crank)):
             long = work.let(Symbol("ℓ", index), reach, LENGTH)
             at_pivot.append(
                 work.let(
@@ -481,8 +463,8 @@ class _WholeMotion:
             )
         )
         turned = [angle if is_left else -angle for angle in at_pivot]
-        work.let(Symbol("θ", "stretched"), bars.tilt + turned[0], ANGLE)
-        work.let(Symbol("θ", "folded"), bars.tilt + _STRAIGHT + turned[1], ANGLE)
+        work.let(Symbol("θ", "stretched"), tilt + turned[0], ANGLE)
+        work.let(Symbol("θ", "folded"), tilt + _STRAIGHT + turned[1], ANGLE)
         work.say(
             said("The swing of the rocker, the crank's angle during the slow stroke, and the time ratio:")
         )

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkanim.explain.forces import FreeBody
-from linkanim.explain.free import couples, joints_of, panels, pulls, spread, titled, triangle
 from linkanim.explain.solution import Solution
 from linkanim.paper.illustration import page_pen
 from linkanim.paper.svg import svg
@@ -41,7 +40,7 @@ def free_bodies_svg(solution: Solution) -> str:
 
     Each arrow says what it is of, as its name does.
     """
-    bodies = panels(solution)
+    bodies = solution.bodies
     groups = [group for body in enumerate(bodies) for group in _panel(solution, *body)]
     drawn = svg(_size(len(bodies)), None, groups, title=said("Free bodies of {title}", title=solution.title))
     return _OF.sub(lambda arrow: f'data-of="{vector_of(arrow[1])}"', drawn)
@@ -55,35 +54,31 @@ def _panel(solution: Solution, n: int, body: FreeBody) -> Iterator[Group]:
     """Yield the groups of one body: its outline, each force, its couples, and the names."""
     pen = page_pen((960, 540), "light")
     room = Rect(n % _ACROSS * _PANEL[0], n // _ACROSS * _PANEL[1], *_PANEL).inset(8)
-    three = bool(triangle(body))
+    three = bool(body.triangle())
     half = room._replace(width=room.width * (0.62 if three else 1.0))
-    joints = joints_of(solution, body)
-    scale = _FILLED * _PANEL[1] / max(spread(solution), 1e-12)
+    joints = solution.joints_of(body)
+    scale = _FILLED * _PANEL[1] / max(solution.spread, 1e-12)
     spots = {name: scale * at.conjugate() for name, at in joints.items()}
     long = _LONGEST * _PANEL[1]
-    drawn = [
-        one._replace(foot=scale * one.foot.conjugate(), way=long * one.way.conjugate()) for one in pulls(body)
-    ]
-    ends = np.array([*spots.values(), *(end for one in drawn for end in (one.foot, one.foot + one.way))])
+    drawn = [(name, scale * foot.conjugate(), long * way.conjugate()) for name, foot, way in body.pulls()]
+    ends = np.array([*spots.values(), *(end for _, foot, way in drawn for end in (foot, foot + way))])
     middle = complex(ends.real.max() + ends.real.min(), ends.imag.max() + ends.imag.min()) / 2
     off = complex(half.x + half.width / 2, half.y + half.height / 2 + 8) - middle
     spots = {name: at + off for name, at in spots.items()}
-    drawn = [one._replace(foot=one.foot + off) for one in drawn]
-    words, colour, turning = titled(solution, body), pen.theme.force, pen.theme.acceleration
+    drawn = [(name, foot + off, way) for name, foot, way in drawn]
+    words, colour, turning = solution.body_title(body), pen.theme.force, pen.theme.acceleration
     yield grouped(f"free-{body.name}", _outline(solution, body, spots, pen))
-    for one in drawn:
-        yield Group(f"arrow-{one.name}", [Layer(colour, arrows([one.foot], [one.way], 1.5 * pen.line))])
+    for name, foot, way in drawn:
+        yield Group(f"arrow-{name}", [Layer(colour, arrows([foot], [way], 1.5 * pen.line))])
     yield grouped(f"couples-{body.name}", _couples(body, spots, pen))
-    names = [
-        NamedPlace(one.name, name_places(one.foot, one.foot + one.way, pen.small), colour) for one in drawn
-    ]
+    names = [NamedPlace(name, name_places(foot, foot + way, pen.small), colour) for name, foot, way in drawn]
     names += [
-        NamedPlace(name, around_joint(_middle(spots), 2.4 * pen.small), turning) for name, _ in couples(body)
+        NamedPlace(name, around_joint(_middle(spots), 2.4 * pen.small), turning) for name, _ in body.turning()
     ]
     pins = [
         NamedPlace(subscripted(one), around_joint(at, pen.small), pen.theme.ink) for one, at in spots.items()
     ]
-    ground = grounded(half, lines=[(one.foot, one.foot + one.way) for one in drawn], half=1.5 * pen.line)
+    ground = grounded(half, lines=[(foot, foot + way) for _, foot, way in drawn], half=1.5 * pen.line)
     small = pen.__class__(pen.type, pen.theme, pen.small, pen.small, pen.line)
     told = [
         one._replace(of=vector_of(one.text)) if one.colour in (colour, turning) else one
@@ -114,7 +109,7 @@ def _outline(solution: Solution, body: FreeBody, spots: dict[str, complex], pen:
 def _couples(body: FreeBody, spots: dict[str, complex], pen: Pen) -> Iterator[Item]:
     """Yield the couples as bent arrows about the body's middle."""
     middle = _middle(spots)
-    for n, (_, value) in enumerate(couples(body)):
+    for n, (_, value) in enumerate(body.turning()):
         radius, way = 15.0 + 7.0 * n, -1.0 if value > 0 else 1.0
         turns = way * np.linspace(-2.2, 1.2, 24)
         path = middle + radius * np.exp(1j * turns)
@@ -130,7 +125,7 @@ def _middle(spots: dict[str, complex]) -> complex:
 
 def _triangle(body: FreeBody, room: Rect, pen: Pen) -> Iterator[Group]:
     """Yield the polygon of a body's three forces, head to tail."""
-    sides = [(name, begin.conjugate(), end.conjugate()) for name, begin, end in triangle(body)]
+    sides = [(name, begin.conjugate(), end.conjugate()) for name, begin, end in body.triangle()]
     ends = np.array([side[1:] for side in sides])
     spread_ = max(float(np.ptp(ends.real)), float(np.ptp(ends.imag)), 1e-12)
     scale = 0.62 * min(room.width, room.height) / spread_

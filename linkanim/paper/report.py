@@ -13,7 +13,7 @@ from math import isclose
 import numpy as np
 
 from linkanim import __version__
-from linkanim.explain.documents import HTML, chapters, derivation
+from linkanim.explain.documents import HTML
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
@@ -119,7 +119,7 @@ class Report:
         chapters = ((title, self._watched(parts)) for title, parts in self._chapters())
         yield "report.html", html.page(said(self.scene.title), self._head(), chapters)
         yield "figure.svg", self._figure.document()
-        if self._worked.loops:
+        if self._worked.arrows:
             yield "loops.svg", vectors_svg(self._worked)
         charts = chain(*self._topics.values(), self._every)
         for number, (tokens, chart) in enumerate(charts, start=1):
@@ -230,7 +230,7 @@ class Report:
 
     def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
         yield said("The mechanism"), self._mechanism()
-        if self._worked.loops:
+        if self._worked.arrows:
             yield said("Vector loops"), self._vector_loops()
             if self.derivation:
                 yield said("Derivation"), self._derivation()
@@ -323,18 +323,14 @@ class Report:
 
     def _vector_loops(self) -> Iterator[Part]:
         caption = said("Vector loops at {place}", place=self._figure.caption)
-        given, loops, *_ = self._worked.chapters
-        alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
-        # after the headings of both chapters and the figure
-        _, _, _, *equations = chapters(alone, replace(HTML, steps="\n".join))
-        drawn = FigurePart(vectors_svg(alone), caption, _HIGHEST_BESIDE)
-        rows = (row for one in equations for row in one.split("</mtr>"))
-        longest = max(len(_UNSEEN.sub("", unescape(_TAG.sub("", row)))) for row in rows)
+        equations = "\n".join(HTML.step(step) for step in self._worked.loop_chapter.steps)
+        drawn = FigurePart(vectors_svg(self._worked), caption, _HIGHEST_BESIDE)
+        longest = max(len(_UNSEEN.sub("", unescape(_TAG.sub("", row)))) for row in equations.split("</mtr>"))
         if longest <= _HALF_A_PAGE:
-            yield Beside((drawn, tuple(equations)))
+            yield Beside((drawn, (equations,)))
         else:
             yield drawn
-            yield from equations
+            yield equations
 
     def _derivation(self) -> Iterator[Part]:
         """Yield the formulas of the positions, and of the differentiated loops, in symbols."""
@@ -345,7 +341,7 @@ class Report:
                 "velocities and accelerations."
             )
         )
-        yield f"<div class='derivation'>{''.join(derivation(self._worked, HTML))}</div>"
+        yield f"<div class='derivation'>{''.join(HTML.derivation(self._worked))}</div>"
 
     def _comparison(self) -> Iterator[Part]:
         """Yield a chart and a table of each quantity that was measured: both values and their difference."""

@@ -103,23 +103,19 @@ def indices_of(solution: Solution) -> dict[str, str]:
         of[f"body-{body.name}"] = [f"{kind}{labels[one.name]}" for one in others for kind in ("w", "jG")]
         of[f"body-{body.name}"] += [f"w{names.angle(*ends)}" for ends in own]
         of[f"body-{body.name}"] += [f"r{names.length(*ends)}" for ends in own]
-    for arrow in solution.arrows:
-        letter, index = arrow.symbol.letter, arrow.symbol.sub
+    for symbol, (begin, head) in solution.arrows.items():
+        letter, index = symbol.letter, symbol.sub
         ends = [
-            [
-                name
-                for name, at in solution.places.items()
-                if abs(at - end) < _SHORT * abs(arrow.end - arrow.begin)
-            ]
-            for end in (arrow.begin, arrow.end)
+            [name for name, at in solution.places.items() if abs(at - end) < _SHORT * abs(head - begin)]
+            for end in (begin, head)
         ]
         pairs = [pair for one, other in product(*ends) for pair in ((one, other), (other, one))]
-        of[_vector(arrow.symbol)] = [f"{'r' if letter == 'R' else 'j' if letter == 'E' else 's'}{index}"]
+        of[_vector(symbol)] = [f"{'r' if letter == 'R' else 'j' if letter == 'E' else 's'}{index}"]
         if letter == "R":
             angles = [*(names.angle(*pair) for pair in pairs), *("".join(pair) for pair in pairs)]
-            of[_vector(arrow.symbol)] += [f"w{angle}" for angle in angles]
-            of[_vector(arrow.symbol)] += ["w1"] * (index == "1")
-    drawn = {arrow.symbol.sub for arrow in solution.arrows if arrow.symbol.letter == "R"}
+            of[_vector(symbol)] += [f"w{angle}" for angle in angles]
+            of[_vector(symbol)] += ["w1"] * (index == "1")
+    drawn = {symbol.sub for symbol in solution.arrows if symbol.letter == "R"}
     for joint in linkage.joints:
         legs = (f"r{index}" for index in names.legs.get(joint.name, ()))
         more = (f"r{n}" for ends, n in names.lengths.items() if joint.name in ends and n not in drawn)
@@ -144,7 +140,7 @@ def _picture(solution: Solution) -> Picture:
     """Return the links with all vectors in view, as large as there is room for."""
     look, scene = Look(trace=False, hud=False), solution.request.scene
     bodies = {name for body in scene.linkage.bodies for name in body.joints}
-    places = [end for one in solution.arrows for end in (one.begin, one.end)]
+    places = [end for ends in solution.arrows.values() for end in ends]
     places += [at for name, at in solution.places.items() if name in bodies]
     high, wide = (float(np.ptp(np.imag(places))), float(np.ptp(np.real(places))))
     size = _TALL if high > wide else _WIDE
@@ -160,7 +156,7 @@ def _picture(solution: Solution) -> Picture:
 
 def _pins(solution: Solution, picture: Picture) -> list[str]:
     """Return the fixed pins of links and of vectors."""
-    ends = {end for one in solution.arrows for end in (one.begin, one.end)}
+    ends = {end for ends in solution.arrows.values() for end in ends}
     bodies = {name for body in solution.request.scene.linkage.bodies for name in body.joints}
     return [name for name in picture.figure.fixed if name in bodies or solution.places[name] in ends]
 
@@ -178,7 +174,10 @@ def _pixel(picture: Picture, at: complex) -> complex:
 def _drawn(solution: Solution, picture: Picture) -> Iterator[Group]:
     """Yield the marks of joints and the vectors, each with its name, placed where it covers nothing."""
     pen, theme = pen_for(picture.layout, picture.type, picture.theme), picture.theme
-    ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in solution.arrows]
+    ways = [
+        (symbol, _pixel(picture, begin), _pixel(picture, end))
+        for symbol, (begin, end) in solution.arrows.items()
+    ]
     long = [way for way in ways if abs(way[2] - way[1]) > _SHORT * picture.size[0]]
     bodies = {name for body in solution.request.scene.linkage.bodies for name in body.joints}
     joints = {name: _pixel(picture, at) for name, at in solution.places.items()}
@@ -192,11 +191,11 @@ def _drawn(solution: Solution, picture: Picture) -> Iterator[Group]:
     groups = [
         Group(_mark(name), [Layer(theme.ink, [at + disc(1.6 * pen.line)])]) for name, at in shown.items()
     ]
-    for one, begin, end in long:
-        colour = theme.velocity if one.symbol.letter == "R" else theme.acceleration
+    for symbol, begin, end in long:
+        colour = theme.velocity if symbol.letter == "R" else theme.acceleration
         arrow = Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
-        groups.append(Group(_vector(one.symbol), [arrow]))
-        text = f"{one.symbol.letter}_{{{one.symbol.sub}}}"
+        groups.append(Group(_vector(symbol), [arrow]))
+        text = f"{symbol.letter}_{{{symbol.sub}}}"
         names.append(NamedPlace(text, name_places(begin, end, pen.text), colour))
     whole = Rect(0, 0, *picture.size)
     ground = grounded(whole, lines=[(begin, end) for _, begin, end in long], half=1.5 * pen.line)

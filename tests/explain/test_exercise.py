@@ -34,7 +34,7 @@ def test_it_asks_five_to_eight_questions_in_the_order_of_the_solution(name: str)
     asked = questions(found)
     assert 5 <= len(asked) <= 8
     stated = {item.value.symbol for item in given(found, asked) if isinstance(item, Given)}
-    numbers = [answer.value.symbol for one in asked for answer in one.answers]
+    numbers = [value.symbol for one in asked for value, _ in one.answers]
     assert len(numbers) <= 26
     assert not stated & {*numbers}  # nothing is asked that is given
     assert len({*numbers}) == len(numbers)
@@ -42,15 +42,15 @@ def test_it_asks_five_to_eight_questions_in_the_order_of_the_solution(name: str)
     assert kinds == sorted(kinds)
     for one in asked:
         assert one.marks > 0
-        for answer in one.answers:
-            assert answer.value.symbol is not None
-            own = found.solved.get(answer.value.symbol, answer.value.value)
-            assert answer.value.value == pytest.approx(own, rel=2e-4, abs=1e-4)
+        for value, _ in one.answers:
+            assert value.symbol is not None
+            own = found.solved.get(value.symbol, value.value)
+            assert value.value == pytest.approx(own, rel=2e-4, abs=1e-4)
 
 
 def _order(question: ExamQuestion) -> int:
     """Return 0 for a place, 1 for a velocity, 2 for an acceleration, 3 for the whole motion."""
-    symbols = [answer.value.symbol for answer in question.answers]
+    symbols = [value.symbol for value, _ in question.answers]
     first = symbols[0]
     assert first is not None
     if first.sub == "swing" or first.letter == "H":
@@ -101,11 +101,11 @@ def test_its_numbers_are_open_with_their_units_and_the_key_has_them(form: Docume
     assert sheet.count(f"{form.how.blank}{form.how.unit('mm/s')}") >= 4
     assert form.new_page in sheet
     assert ("Hint:" in sheet) == (level == "hints")
-    for answer in answers:
-        assert answer.value.symbol is not None
-        own = found.solved.get(answer.value.symbol, answer.value.value)
+    for value, _ in answers:
+        assert value.symbol is not None
+        own = found.solved.get(value.symbol, value.value)
         assert rounded(abs(own), 4) in key
-        assert answer.value.shown.lstrip("-") not in sheet
+        assert value.shown.lstrip("-") not in sheet
     # the key has the way, with its numbers
     lines = [item for one in asked for step in one.way for item in step.items if isinstance(item, ValueLine)]
     assert len(lines) > 30

@@ -13,7 +13,7 @@ from tex import needs_tex
 
 import linkanim
 from linkanim.cli import main
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
+from linkanim.explain.documents import HTML, MARKDOWN, TEX
 from linkanim.explain.solution import PoseRequest, solution
 from linkanim.explain.steps import names_of
 from linkanim.explain.synthesis import _Chapter, synthesis
@@ -34,7 +34,7 @@ def test_every_printed_line_computes_and_leads_to_the_linkage(name: str) -> None
     assert chapter is not None
     assert chapter.title == "Synthesis"
     for form, read in FORMS.values():
-        printed = document(found, form)
+        printed = form.document(found)
         checks = list(checks_of(read(printed[printed.index("Synthesis") :])))
         assert len(checks) > 2
         assert [check for check in checks if not check.holds] == []
@@ -104,7 +104,7 @@ def test_a_function_s_exercise_with_a_seed_has_other_lengths() -> None:
 @pytest.mark.parametrize("name", MADE)
 def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
     found = solution(PoseRequest(MADE[name](), "phase", 0.5, 2.0))
-    (tmp_path / "made.tex").write_text(document(found, TEX), encoding="utf-8")
+    (tmp_path / "made.tex").write_text(TEX.document(found), encoding="utf-8")
     done = subprocess.run(
         ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "made.tex"],
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120,

@@ -15,7 +15,7 @@ from pseudo import plain_words, spoken_pseudo, visible
 
 from linkanim import load, tolerance
 from linkanim.cli import main
-from linkanim.explain.documents import HTML, document
+from linkanim.explain.documents import HTML
 from linkanim.explain.exercise import Level, exercise
 from linkanim.explain.solution import PoseRequest, solution
 from linkanim.paper.chart import Page
@@ -47,7 +47,7 @@ SOLVED = {
 def _solved(name: str, *, forces: bool = False) -> str:
     scene = load(name)
     request = PoseRequest(scene, "phase", 0.7, scene.linkage.drive.speed, forces=forces)
-    return document(solution(request), HTML)
+    return HTML.document(solution(request))
 
 
 @pytest.mark.parametrize("name", SOLVED)

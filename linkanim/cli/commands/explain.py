@@ -14,9 +14,8 @@ from linkanim.cli.letters import tell_of_scene
 from linkanim.cli.options import inputs_of
 from linkanim.cli.progress import along
 from linkanim.errors import BadInput
-from linkanim.explain.documents import HTML, LIT, MARKDOWN, TEX, document
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, page_form
 from linkanim.explain.exercise import LEVELS, exercise
-from linkanim.explain.free import panels
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.intake import few
@@ -61,12 +60,11 @@ def run(options: Namespace) -> None:
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
     if form is HTML:
         drawn = _dimensioned if options.exercise else _figure
-        form = LIT if options.forces or options.static else form
-        form = replace(form, figure=drawn, construction=_construction, free=_free)
+        form = page_form(drawn, _construction, _free, lit=options.forces or options.static)
     text = (
         exercise(versions, form, options.level or LEVELS[0])
         if options.exercise
-        else document(versions[0], form)
+        else form.document(versions[0])
     )
     if target is None:
         print(text, end="")
@@ -78,7 +76,7 @@ def run(options: Namespace) -> None:
 
 
 def _figure(solution: Solution) -> str:
-    if not solution.loops:
+    if not solution.arrows:
         return ""
     drawn = embedded(vectors_svg(solution), said("Vector loops of {title}", title=solution.title))
     return f"<figure class='vectors'>{drawn}</figure>"
@@ -92,7 +90,7 @@ def _dimensioned(solution: Solution) -> str:
 
 def _free(solution: Solution) -> str:
     # on a phone it is not so small that it cannot be read, and is moved sideways
-    least = f"min-width: {_PANEL * min(len(panels(solution)), 3)}px"
+    least = f"min-width: {_PANEL * min(len(solution.bodies), 3)}px"
     drawn = embedded(free_bodies_svg(solution), said("Free bodies of {title}", title=solution.title), least)
     return f"<figure class='vectors'>{drawn}</figure>"
 
