@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.frozen import frozen
+from linkanim.mechanics.measures import rounding_of
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.paper.svg import RIMMED, drawn, flat, hexadecimal, in_steps
 from linkanim.picture.bodies import WHEELS
@@ -183,6 +184,8 @@ _STEPS = 1 << 30
 """Steps of a point's places, from its first one to the farthest."""
 LARGEST_SINGLE = float(np.finfo(np.float32).max)
 """The largest number of 32 bits: larger rates, beside a place where they are unbounded, are cut to it."""
+_ROUNDINGS = 10.0
+"""How many usual rounding errors a point that rests may be off, as a quantity that does not change."""
 _ROUNDED = 1e-6
 """How far the points of a rounded outline may be off their radius, in pixels."""
 _STATED = ("dead-centres", "key", "dimension-lines")
@@ -219,28 +222,52 @@ class Track:
     places: Loop
     rates: Loop
 
+    @property
+    def packed(self) -> list[Any]:
+        """It as a page holds it: nodes, places, rates, and what places are steps of.
+
+        Places are whole steps of a grain, in 32 bits, from the point's first one, so that those of a small
+        path are as fine as its accelerations need.
+        """
+        first = self.places[0]
+        ways = _parts(self.places - first)
+        grain = (float(np.abs(ways).max()) or 1.0) / _STEPS
+        steps, rates = np.rint(ways / grain), _parts(self.rates.T)
+        rates = np.clip(rates, -LARGEST_SINGLE, LARGEST_SINGLE)
+        tail = [first.real, first.imag, grain]
+        return [packed(self.nodes, "<u2"), packed(steps, "<i4"), packed(rates, "<f4"), tail]
+
 
 def tracks(scene: Scene, view: View) -> dict[str, Track]:
-    """Return the tracks of joints and centres of mass over a true period; over a way that it retraces."""
-    joints = scene.linkage.joints
-    centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
-    names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
+    """Return the tracks of joints and centres of mass over a true period; over a way that it retraces.
+
+    A point that rests, apart from rounding, has one node.
+    """
+    joints = (joint.name for joint in scene.linkage.joints)
+    names = (*joints, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None))
     first = min(max(_FIRST, 1 << math.ceil(math.log2(_FIRST * scene.period / math.tau))), GRID)
     step = GRID // first
     end = GRID // 2 if scene.mechanism.way else GRID
-    begins = {name: np.arange(0, end if name not in fixed else 1, step) for name in names}
-    nodes = {name: [some] for name, some in begins.items()}
-    open_ = {name: some for name, some in begins.items() if name not in fixed}
+    begins = np.arange(0, end, step)
+    still = _Solved(scene, view, names, begins).still
+    nodes = {name: [begins[:1] if name in still else begins] for name in names}
+    open_ = {name: begins for name in names if name not in still}
     while open_ and step >= 1 / min(_PROBES):
         open_ = dict(_halved(open_, _Solved(scene, view, names, _looked_at(open_, step)), step))
         step //= 2
         for name, some in open_.items():
             nodes[name].append(some)
-    for name in begins.keys() - fixed if end < GRID else ():
+    for name in nodes.keys() - still if end < GRID else ():
         nodes[name].append(np.array([end]))
     kept = {name: np.unique(np.concatenate(some)) for name, some in nodes.items()}
     solved = _Solved(scene, view, names, np.unique(np.concatenate([*kept.values()])))
-    return {name: solved.track(name, some) for name, some in kept.items()}
+    found = {}
+    for name, some in kept.items():
+        place, *rates = solved.at(name, some)
+        found[name] = Track(
+            some, place, np.zeros((2, 1), np.complex128) if name in still else np.array(rates)
+        )
+    return found
 
 
 def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
@@ -274,16 +301,18 @@ class _Solved:
         self.scene, self._grid = scene, grid
         motion = scene.solve(phase=begin_of(scene) + grid * (scene.period / GRID), speed=1.0)
         self._known = dict(zip(names, _pixels(motion, scene, view), strict=True))
+        self._rounding = _ROUNDINGS * view.scale * rounding_of(motion, "{}", 0)
 
     def at(self, name: str, places: Whole) -> Loop:
         """Return position and derivatives (3, …) at places on the grid."""
         path: Loop = self._known[name][:, np.searchsorted(self._grid, places)]
         return path
 
-    def track(self, name: str, nodes: Whole) -> Track:
-        """Return a point's track through nodes."""
-        path = self.at(name, nodes)
-        return Track(nodes, path[0], path[1:])
+    @property
+    def still(self) -> set[str]:
+        """The points that rest at all places: they neither move nor have rates, apart from rounding."""
+        moves = {name: path - [[path[0, 0]], [0], [0]] for name, path in self._known.items()}
+        return {name for name, move in moves.items() if np.abs(move).max() <= self._rounding}
 
 
 def _pixels(motion: Motion, scene: Scene, view: View) -> Iterator[Loop]:
@@ -330,25 +359,6 @@ def evaluated(coefficients: Loop, share: Any) -> Any:
     return value
 
 
-def packed_tracks(tracks: Mapping[str, Track]) -> dict[str, Any]:
-    """Return tracks as a page holds them: nodes, places, rates, and what places are steps of.
-
-    Places are whole steps of a grain, in 32 bits, from the point's first one, so that those of a small path
-    are as fine as its accelerations need.
-    """
-    return {name: [*_packed(track)] for name, track in tracks.items()}
-
-
-def _packed(track: Track) -> Iterator[Any]:
-    first = track.places[0]
-    ways = _parts(track.places - first)
-    grain = (float(np.abs(ways).max()) or 1.0) / _STEPS
-    yield packed(track.nodes, "<u2")
-    yield packed(np.rint(ways / grain), "<i4")
-    yield packed(np.clip(_parts(track.rates.T), -LARGEST_SINGLE, LARGEST_SINGLE), "<f4")
-    yield [first.real, first.imag, grain]
-
-
 def _parts(values: Loop) -> NDArray[np.float64]:
     """Return real and imaginary parts one after the other."""
     parts: NDArray[np.float64] = np.ascontiguousarray(values).view(np.float64)
@@ -374,6 +384,25 @@ class Movable:
     mover: Mover | None = None
     transform: str = ""
     """Its place at the start."""
+
+    def markup(self, moving: Iterator[int], known: dict[str, str]) -> str:
+        """Return the group, with the next number if it moves.
+
+        Shapes that are `known` are used again, by the id of the group that has them.
+        """
+        placed = f' transform="{self.transform}"' if self.transform else ""
+        numbered = f' data-m="{next(moving)}"' if self.mover else ""
+        shapes = self.shapes
+        if shapes in known:
+            shapes = f'<use href="#{known[shapes]}"/>'
+        elif len(shapes) >= _SHARED:
+            known[shapes] = f"s{len(known)}"
+            shapes = f'<g id="{known[shapes]}">{shapes}</g>'
+        return f"<g{placed}{numbered}>{shapes}</g>"
+
+
+_SHARED = 100
+"""The fewest bytes of shapes that are stored once where they occur again."""
 
 
 @frozen

@@ -49,7 +49,6 @@ from linkanim.share.movers import (
     centre,
     link_words,
     packed,
-    packed_tracks,
     shares_of,
     tracks,
 )
@@ -207,8 +206,6 @@ _POLICY = (
 """What a page may load: nothing but its own style and the one script that it comes with."""
 LARGEST = 200_000
 """The most bytes of a page."""
-_SHARED = 100
-"""The fewest bytes of shapes that are stored once where they occur again."""
 _WIDTH, _HEIGHTS = 960, (480, 900)
 
 
@@ -231,11 +228,12 @@ class Shared:
         return (self.theme, self.theme) if self.theme else ("light", "dark")
 
 
-def document(shared: Shared) -> str:
-    """Return the page as HTML, which loads nothing; it has one closure where there is no room for both.
+def document(shared: Shared, tell: Callable[[str], None] | None = None) -> str:
+    """Return the page as HTML, which loads nothing.
 
-    BadInput for a chart of no quantity of the scene, for a speed of zero, and where the page would be larger
-    than `LARGEST`: its gears take very many turns to be back, or it has very many joints and bodies.
+    Where there is no room for both closures it has one, says so, and `tell` hears of it. BadInput for
+    a chart of no quantity of the scene, for a speed of zero, and where the page would be larger than
+    `LARGEST`: its gears take very many turns to be back, or it has very many joints and bodies.
     """
     scene = shared.scene
     if shared.speed == 0:
@@ -244,7 +242,14 @@ def document(shared: Shared) -> str:
     both = [_drawn(shared, one, size) for one in (scene, ghost_of(scene)) if one]
     page = _whole(shared, size, both)
     if len(both) > 1 and len(page.encode()) > LARGEST:
-        page = _whole(shared, size, both[:1])
+        left_out = said(
+            "The other closure is not on this page: both would take {size} kB, and {most} kB is the most.",
+            size=f"{len(page.encode()) / 1000:.0f}",
+            most=f"{LARGEST / 1000:.0f}",
+        )
+        page = _whole(shared, size, both[:1], left_out)
+        if tell:
+            tell(f"{scene.name}: {left_out}")
     if len(page.encode()) > LARGEST:
         kilobytes = len(page.encode()) / 1000
         raise BadInput(
@@ -271,7 +276,9 @@ def _drawn(shared: Shared, scene: Scene, size: tuple[int, int]) -> tuple[Picture
     return picture, Picture(scene, size, dark, apart=True)
 
 
-def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Picture, Picture]]) -> str:
+def _whole(
+    shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Picture, Picture]], left_out: str = ""
+) -> str:
     scene, pairs = shared.scene, Pairs()
     sides = [_Side(shared, *drawn, pairs) for drawn in closures]
     known: dict[str, str] = {}
@@ -296,7 +303,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
     sheet = pairs.styles(shared.themes, shared.theme)
     kind = scene.info.class_said
     digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    about = sentences(said("{found}.", found=f"{kind[:1].upper()}{kind[1:]}"), said(scene.look_at))
+    about = sentences(said("{found}.", found=f"{kind[:1].upper()}{kind[1:]}"), said(scene.look_at), left_out)
     return in_language(packaged("page.html")).substitute(
         lang=html_language(),
         policy=_POLICY.format(script=digest),
@@ -360,15 +367,9 @@ class _Side:
         self._movables = tuple(Mobile(light, dark, pairs, pulled).movables())
 
     def markup(self, number: int, known: dict[str, str]) -> str:
-        """Return its groups, numbered if they move; hidden unless the closure is the first.
-
-        Shapes that are `known` are used again, by the id of the group that has them.
-        """
-        moving, groups = count(), ""
-        for one in self._movables:
-            placed = f' transform="{one.transform}"' if one.transform else ""
-            numbered = f' data-m="{next(moving)}"' if one.mover else ""
-            groups += f"<g{placed}{numbered}>{_once(one.shapes, known)}</g>"
+        """Return its groups, hidden unless it is the first; shapes that are `known` are used again."""
+        moving = count()
+        groups = "".join(one.markup(moving, known) for one in self._movables)
         return f"<g id='side{number}'{' hidden' if number else ''}>{groups}</g>"
 
     def model(self) -> dict[str, Any] | None:
@@ -396,21 +397,11 @@ class _Side:
             "view": [view.scale, view.x, view.y],
             "drive": scene.linkage.drive.joint,
             "joints": list(self._picture.figure.in_view),
-            "tracks": packed_tracks(tracks(scene, view)),
+            "tracks": {name: track.packed for name, track in tracks(scene, view).items()},
             "movers": [one.mover for one in self._movables if one.mover],
             "rows": list(rows(scene, speed)),
             "charts": charts(self._picture.figure, themes, (token, speed), self._pairs) if token else [],
         }
-
-
-def _once(shapes: str, known: dict[str, str]) -> str:
-    """Return shapes, or a reference to the same shapes on the page."""
-    if shapes in known:
-        return f'<use href="#{known[shapes]}"/>'
-    if len(shapes) < _SHARED:
-        return shapes
-    known[shapes] = f"s{len(known)}"
-    return f'<g id="{known[shapes]}">{shapes}</g>'
 
 
 def _short(value: Any) -> Any:

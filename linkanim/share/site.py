@@ -31,10 +31,12 @@ def write_site(
     shared: Shared,
     unit: str | None = None,
     progress: Callable[[int, int], None] | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> None:
     """Write a page for each scene as NAME.html into a folder, and the index; `shared` says how.
 
-    Lengths are shown in `unit`, each scene's own where it is None. `progress` is told (pages done, in all).
+    Lengths are shown in `unit`, each scene's own where it is None. `progress` is told (pages done,
+    in all), and `tell` what a page leaves out.
 
     All appear together or none does; they replace only files that we wrote. `BadInput` before any work where
     `folder` cannot be a folder or a name is taken by another file.
@@ -45,7 +47,7 @@ def write_site(
         scenes = []
         for name, page in zip(chosen, pages, strict=True):
             scenes.append(in_unit(load(name), unit))
-            (new / page).write_text(document(replace(shared, scene=scenes[-1])), encoding="utf-8")
+            (new / page).write_text(document(replace(shared, scene=scenes[-1]), tell), encoding="utf-8")
             if progress:
                 progress(len(scenes), len(chosen))
         (new / INDEX).write_text(_index(scenes, shared), encoding="utf-8")

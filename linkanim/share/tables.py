@@ -70,7 +70,7 @@ def table(
     turned = [math.pi * n for n in range(0 if scene.info.full_turn else round(scene.period / math.pi))]
     places = _apart(sorted({*turned, *(place % scene.period for place in unbounded)}), scene.period)
     poles = tuple(_poles(read, places, scene.period))
-    parts = sorted(_parts(_Sought(scene, whole, read, poles, near), places))
+    parts = sorted(_Sought(scene, whole, read, poles, near).parts(places))
     values = np.concatenate([values for *_, values in parts], axis=1)
     ends = (*(low for low, *_ in parts), 1.0)
     return Tabulated(values, ends, tuple(steps for _, _, steps, _ in parts), poles)
@@ -92,6 +92,8 @@ def _poles(read: Read, places: Sequence[float], period: float) -> Iterator[Pole]
 
 
 class _Sought(NamedTuple):
+    """What a table is made of: the scene, where it begins and ends, its values, their poles, how near."""
+
     scene: Scene
     whole: tuple[float, float]
     read: Read
@@ -105,55 +107,52 @@ class _Sought(NamedTuple):
             weights *= np.abs(np.sin((phases / self.scene.period - place) * math.pi)) ** power
         return weights
 
+    def parts(self, places: Sequence[float]) -> Iterator[tuple[float, float, int, Values]]:
+        """Yield the parts with their values, in any order; no part goes over one of the places."""
+        open_, size = self._first(places), 0
+        while open_:
+            halves: list[_Part] = []
+            for (low, high, steps), held, good in self._looked_at(open_):
+                if good or high - low < _FINEST or size + sum(one[2] for one in halves) > 2 * _MOST:
+                    size += steps
+                    yield low, high, steps, held
+                    continue
+                middle, fewer = (low + high) / 2, max(math.ceil(steps / 2), 3)
+                halves += [(low, middle, fewer), (middle, high, fewer)]
+            open_ = halves
+
+    def _first(self, places: Sequence[float]) -> list[_Part]:
+        begin, end = self.whole
+        shares = sorted((place - begin) / (end - begin) % 1.0 for place in places)
+        inner = [share for share in shares if _FINEST < share < 1.0 - _FINEST]
+        ends = [0.0, *(one for one, other in pairwise([*inner, 1.0]) if other - one > _FINEST), 1.0]
+        mechanism, period = self.scene.mechanism, self.scene.period
+        count = min(mechanism.count(_MOMENTS * round(period / math.tau), a_turn=_A_TURN), _MOST)
+        return [(low, high, max(math.ceil(count * (high - low)), 3)) for low, high in pairwise(ends)]
+
+    def _looked_at(self, parts: Sequence[_Part]) -> Iterator[tuple[_Part, Values, bool]]:
+        """Yield each part with its values as the table has them, and whether a reading between is right."""
+        begin, end = self.whole
+        inside = math.copysign(_INSIDE, end - begin)
+        way = [
+            (begin + (end - begin) * low + inside, begin + (end - begin) * high - inside)
+            for low, high, _ in parts
+        ]
+        phases = [np.linspace(*ends, 2 * part[2] + 1) for ends, part in zip(way, parts, strict=True)]
+        read = self.read(np.concatenate(phases))
+        first = 0
+        for part, own in zip(parts, phases, strict=True):
+            values, weight = read[:, first : first + len(own)], self.weight(own)
+            first += len(own)
+            held, true = (values * weight)[:, ::2], values[:, 1::2]
+            with np.errstate(invalid="ignore"):
+                off = np.abs(_between(held) / weight[1::2] - true)
+                wrong = off > np.maximum(self.near, _SHARE * np.abs(true))
+            yield part, held, not wrong.any()
+
 
 _Part = tuple[float, float, int]
 """Where a part begins and ends, as shares of the whole, and its steps."""
-
-
-def _parts(sought: _Sought, places: Sequence[float]) -> Iterator[tuple[float, float, int, Values]]:
-    """Yield the parts with their values, in any order."""
-    open_, size = _first_parts(sought, places), 0
-    while open_:
-        halves: list[_Part] = []
-        for (low, high, steps), held, good in _looked_at(sought, open_):
-            if good or high - low < _FINEST or size + sum(one[2] for one in halves) > 2 * _MOST:
-                size += steps
-                yield low, high, steps, held
-                continue
-            middle, fewer = (low + high) / 2, max(math.ceil(steps / 2), 3)
-            halves += [(low, middle, fewer), (middle, high, fewer)]
-        open_ = halves
-
-
-def _first_parts(sought: _Sought, places: Sequence[float]) -> list[_Part]:
-    begin, end = sought.whole
-    shares = sorted((place - begin) / (end - begin) % 1.0 for place in places)
-    inner = [share for share in shares if _FINEST < share < 1.0 - _FINEST]
-    ends = [0.0, *(one for one, other in pairwise([*inner, 1.0]) if other - one > _FINEST), 1.0]
-    mechanism, period = sought.scene.mechanism, sought.scene.period
-    count = min(mechanism.count(_MOMENTS * round(period / math.tau), a_turn=_A_TURN), _MOST)
-    return [(low, high, max(math.ceil(count * (high - low)), 3)) for low, high in pairwise(ends)]
-
-
-def _looked_at(sought: _Sought, parts: Sequence[_Part]) -> Iterator[tuple[_Part, Values, bool]]:
-    """Yield each part with its values as the table has them, and whether a reading between them is right."""
-    begin, end = sought.whole
-    inside = math.copysign(_INSIDE, end - begin)
-    way = [
-        (begin + (end - begin) * low + inside, begin + (end - begin) * high - inside)
-        for low, high, _ in parts
-    ]
-    phases = [np.linspace(*ends, 2 * part[2] + 1) for ends, part in zip(way, parts, strict=True)]
-    read = sought.read(np.concatenate(phases))
-    first = 0
-    for part, own in zip(parts, phases, strict=True):
-        values, weight = read[:, first : first + len(own)], sought.weight(own)
-        first += len(own)
-        held, true = (values * weight)[:, ::2], values[:, 1::2]
-        with np.errstate(invalid="ignore"):
-            off = np.abs(_between(held) / weight[1::2] - true)
-            wrong = off > np.maximum(sought.near, _SHARE * np.abs(true))
-        yield part, held, not wrong.any()
 
 
 def _between(held: Values) -> Values:

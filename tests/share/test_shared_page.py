@@ -122,6 +122,30 @@ def test_both_closures_are_there_and_know_their_names() -> None:
     assert len(held(document(Shared(load("scotch-yoke"))))["sides"]) == 1
 
 
+@pytest.mark.parametrize("name", ["galloway", "knuckle-press", "isosceles-slider"])
+def test_a_closure_with_a_point_at_rest_has_room(name: str) -> None:
+    """A bar lies on its pivot there: a track of rounding errors alone would take up to a megabyte."""
+    assert len(held(document(Shared(load(name)), pytest.fail))["sides"]) == 2
+
+
+def test_a_closure_is_left_out_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linkanim.share.page.LARGEST", 99_000)
+    said: list[str] = []
+    page = document(Shared(load("crank-rocker")), said.append)
+    sentence = "The other closure is not on this page: both would take 101 kB, and 99 kB is the most."
+    assert len(held(page)["sides"]) == 1
+    assert said == [f"crank-rocker: {sentence}"]
+    assert sentence in page
+
+
+def test_the_command_says_on_stderr_what_a_page_leaves_out(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("linkanim.share.page.LARGEST", 99_000)
+    assert main(["share", "crank-rocker", "-o", str(tmp_path / "a.html")]) == 0
+    assert capsys.readouterr().err.startswith("crank-rocker: The other closure is not on this page")
+
+
 @pytest.mark.parametrize(
     ("name", "high"),
     [

@@ -14,7 +14,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing import ghost_of, other_return
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.share.movers import GRID, packed_tracks, tracks
+from linkanim.share.movers import GRID, tracks
 
 WIDTH = 960.0
 FINEST = 0.01 * WIDTH / 3840
@@ -70,7 +70,7 @@ def test_no_point_is_a_hundredth_of_a_pixel_off_on_the_largest_screen(name: str)
     scene = load(name)
     for one in filter(None, (scene, ghost_of(scene))):
         view = view_of(one)
-        packed = packed_tracks(tracks(one, view))
+        packed = {name: track.packed for name, track in tracks(one, view).items()}
         phases = np.sort(np.random.default_rng(1).uniform(0, one.period, MOMENTS))
         motion = one.solve(phase=phases, speed=1.0)
         for joint in motion.position:
@@ -99,6 +99,34 @@ def test_a_track_has_no_more_nodes_than_its_curve_asks_for() -> None:
     assert max(found.values()) < 60
 
 
+@pytest.mark.parametrize(
+    ("name", "point"), [("galloway", "A"), ("knuckle-press", "R"), ("isosceles-slider", "B")]
+)
+def test_a_point_that_rests_on_the_other_closure_has_one_node(name: str, point: str) -> None:
+    """A bar lies on its pivot there, and only turns: what is left of the point's way is rounding."""
+    ghost = ghost_of(load(name))
+    assert ghost is not None
+    track = tracks(ghost, view_of(ghost))[point]
+    assert len(track.nodes) == len(track.places) == 1
+    assert not track.rates.any()
+
+
+def test_a_crank_that_turns_as_often_as_there_are_first_places_does_not_rest() -> None:
+    scene = scene_from(
+        {
+            "drive": {"joint": "A", "speed": "20 rpm"},
+            "ground": {"O": [0, 0], "G": [40, 0]},
+            "joints": {
+                "A": {"crank": "O", "length": 10},
+                "B": {"crank": "G", "length": 5, "gear": {"with": "A", "ratio": 16}},
+            },
+        },
+        name="geared",
+        where="geared",
+    )
+    assert len(tracks(scene, view_of(scene))["B"].nodes) > 16
+
+
 # Stephenson III, driven at its first bar: at its upper end it comes back as it went, at its lower it goes on.
 KEPT = {
     "drive": {"joint": "B"},
@@ -117,7 +145,7 @@ def test_tracks_of_a_way_from_one_kept_end_to_itself_hold_up_to_both() -> None:
     first, last = scene.mechanism.way or (0.0, 0.0)
     assert (first, last) == (-np.pi, np.pi)
     view = view_of(scene)
-    packed = packed_tracks(tracks(scene, view))
+    packed = {name: track.packed for name, track in tracks(scene, view).items()}
     beside = np.array([1e-9, 1e-4, 1e-3, 0.1, 1.0, 3.0])
     phases = np.concatenate([first + beside, last - beside])
     motion = scene.solve(phase=phases, speed=1.0)
@@ -134,7 +162,7 @@ def test_tracks_of_a_way_from_one_kept_end_to_itself_hold_up_to_both() -> None:
 def test_rates_of_a_way_that_is_gone_back_hold_up_to_its_ends(name: str) -> None:
     scene = other_return(load(name))
     view = view_of(scene)
-    packed = packed_tracks(tracks(scene, view))
+    packed = {name: track.packed for name, track in tracks(scene, view).items()}
     beside = np.array([1e-9, 1e-6, 1e-4, 7e-4, 1e-2, 0.1])
     phases = np.concatenate([beside, np.pi - beside])
     motion = scene.solve(phase=phases, speed=1.0)

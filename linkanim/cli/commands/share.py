@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import Namespace
 from pathlib import Path
 
@@ -31,7 +32,7 @@ def _page(options: Namespace) -> Path:
         raise BadInput("name a scene (`linkanim scenes` lists them), or give --all DIR for all of them")
     usual = f"{Path(options.scene).stem}.html"
     target = checked_output(options.output, usual, SUFFIXES, inputs_of(options))
-    page = document(_shared(options, options.scene))
+    page = document(_shared(options, options.scene), _tell)
     with target.replacing() as part:
         part.write_text(page, encoding="utf-8")
     return target.path
@@ -48,8 +49,12 @@ def _site(options: Namespace) -> Path:
         raise BadInput(f"--all writes every scene into its folder; leave out {word}, which is for one")
     every = names()
     with bar(unit=" scenes") as progress:
-        write_site(options.all, every, _shared(options, every[0]), options.unit, progress)
+        write_site(options.all, every, _shared(options, every[0]), options.unit, progress, _tell)
     return Path(options.all / INDEX)
+
+
+def _tell(sentence: str) -> None:
+    print(sentence, file=sys.stderr)
 
 
 def _shared(options: Namespace, scene: str) -> Shared:
