@@ -12,6 +12,7 @@ From the ground up; a module imports from those before it only:
     linkage     what a linkage is, as data
     groups      links that are solved together, as data
     solver      closing it; no other room imports this one
+    followed    links that are solved together, closed: followed once, read from there
     closures    all closures of links that are solved together
     measures    what follows from solved quantities
     centres     instant centres, and Kennedy's theorem

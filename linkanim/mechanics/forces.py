@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -73,7 +74,7 @@ def effort_token(linkage: Linkage) -> str:
 
 def input_power(motion: Any) -> Any:
     """Return the power (W) that the input delivers; needs second derivatives where anything has a mass."""
-    return _power(motion, _MOVING).total
+    return _power(motion, _MOVING)[0]
 
 
 def input_effort(motion: Any) -> Any:
@@ -85,27 +86,31 @@ def input_effort(motion: Any) -> Any:
     """
     keep_memory()
     with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
-        power = _power(motion, _MOVING)
-        effort = _quotient(motion, power, _MOVING)
-    unbounded = ~np.isfinite(power.weight) & ~np.isnan(motion.phase)
+        power, weight, rounding = _power(motion, _MOVING)
+        effort = _quotient(motion, power, rounding, _MOVING)
+    unbounded = ~np.isfinite(weight) & ~np.isnan(motion.phase)
     effort = np.where(unbounded, np.inf, effort)[()] if np.any(unbounded) else effort
     if not motion.acceleration or not np.any(near := stands(motion, AT_END)):
         return effort
-    stops, still = stands(motion), power.weight <= power.rounding
-    starting = _quotient(motion, _power(motion, _STARTING), _STARTING)
+    stops, still = stands(motion), weight <= rounding
+    starting = _effort(motion, _STARTING)
     effort = np.where(stops, np.where(still, starting, np.inf), effort)
     near = idle(motion, np.asarray(near & ~(stops & still)))
     if np.any(near):
-        effort[near] = interpolated(
-            motion, near, lambda there: _quotient(there, _power(there, _MOVING), _MOVING)
-        )
+        effort[near] = interpolated(motion, near, partial(_effort, rates=_MOVING))
     return effort[()]
 
 
-def _quotient(motion: Any, power: _Power, rates: _Rates) -> Any:
+def _effort(motion: Any, rates: _Rates) -> Any:
+    """Return power over pace."""
+    power, _, rounding = _power(motion, rates)
+    return _quotient(motion, power, rounding, rates)
+
+
+def _quotient(motion: Any, power: Any, rounding: Any, rates: _Rates) -> Any:
     """Return power over pace, 0 where that is rounding, infinite or NaN where the pace is 0."""
     pace = _pace(motion, rates)
-    return cleaned(over(power.total, pace), over(power.rounding, abs(pace)))
+    return cleaned(over(power, pace), over(rounding, abs(pace)))
 
 
 def near_ends(motion: Any) -> Any:
@@ -122,8 +127,8 @@ def idle(motion: Any, near: NDArray[np.bool_]) -> NDArray[np.bool_]:
     is_idle = near.copy()
     if np.any(near):
         phase = np.broadcast_to(motion.phase, near.shape)[near]
-        there = _power(_solved(motion, near, math.pi * np.rint(phase / math.pi)), _MOVING)
-        is_idle[near] = (there.weight > there.rounding) & (np.abs(there.total) <= IDLE * there.rounding)
+        power, weight, rounding = _power(_solved(motion, near, math.pi * np.rint(phase / math.pi)), _MOVING)
+        is_idle[near] = (weight > rounding) & (np.abs(power) <= IDLE * rounding)
     return is_idle
 
 
@@ -142,24 +147,18 @@ def _solved(motion: Any, where: NDArray[np.bool_], phases: Array) -> Any:
     return motion.mechanism.solve(phase=phases, speed=speed, acceleration=second)
 
 
-class _Power(NamedTuple):
-    """The power of all forces and inertia, in W, its weight, and its rounding errors.
+def _power(motion: Any, rates: _Rates) -> tuple[Any, Any, Any]:
+    """Return the power that forces and inertia take (W), its weight, and its rounding errors.
 
-    The weight is the sum of the terms' sizes, each as if all moved along its force.
+    From rest, it is the rate at which the power grows (W/s). The weight is the sum of the terms' sizes, each
+    as if all moved along its force.
     """
-
-    total: Any
-    weight: Any
-    rounding: Any
-
-
-def _power(motion: Any, rates: _Rates) -> _Power:
-    """Return the power that forces and inertia take (W); from rest, the rate at which it grows (W/s)."""
     linkage = motion.mechanism.linkage
     struts = _strut_power(motion, rates, linkage.springs + linkage.dampers)
     nothing = 0.0 * motion.phase
     others = (*_body_power(motion, rates), *_load_power(motion, rates))
-    return _Power(*map(sum, zip((nothing, nothing, nothing), *struts, *others, strict=True)))
+    power, weight, rounding = map(sum, zip((nothing, nothing, nothing), *struts, *others, strict=True))
+    return power, weight, rounding
 
 
 def _strut_power(

@@ -7,12 +7,13 @@ links, gears between moving links. It is given in one pose, which says its lengt
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from cmath import phase
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Joint, Line, Linkage, Point, RigidBody, Slide, Stated
@@ -81,7 +82,7 @@ class GroupMotor(NamedTuple):
 
 
 @frozen
-class LinkGroup(Stated):
+class LinkGroup(Stated, ABC):
     """Links that are solved together, the ground and the driven crank among them, in one pose.
 
     `at` is the input's angle in the pose (rad), `crank` the crank's link: "" where a `motor` drives that is
@@ -133,6 +134,17 @@ class LinkGroup(Stated):
     def driven_slide(self) -> GroupSlide | None:
         """The slide that drives; None where none does."""
         return next((slide for slide in self.slides if slide.name == self.driven), None)
+
+    @abstractmethod
+    def followed(self, linkage: Linkage, unscale: float) -> tuple[Any, Any]:
+        """Return the path of a linkage's input, and the group's motion on it; AssemblyError without one.
+
+        Times `unscale` lengths are in the scene's unit.
+        """
+
+    @abstractmethod
+    def place(self, walk: Any) -> None:
+        """Add its points and its links to a walk over the linkage."""
 
     def between(self, slide: GroupSlide) -> tuple[str, str] | None:
         """Return the ends of a cylinder: of a slide whose line, on a link of one point, runs through that."""

@@ -17,7 +17,7 @@ from decimal import Decimal
 from functools import cached_property, lru_cache
 from struct import pack
 from types import CodeType, FunctionType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,21 +41,19 @@ from linkanim.mechanics.precise import cosine, sine, square_root
 # cache, and a result is written over one of its arguments wherever that is not needed any more.
 
 
-class Allocation(NamedTuple):
-    """The variable of each node's values, the outputs still to be copied into rows, the number of buffers."""
-
-    held: Mapping[int | str, str]
-    copies: tuple[tuple[int, int | str], ...]
-    buffers: int
+Copies = tuple[tuple[int, int | str], ...]
+"""Outputs that are still to be copied into rows: which row, and which value."""
 
 
-def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> Allocation:
-    """Return where the values of nodes are held; the operations are given in the order of their work.
+def allocated(
+    operations: Sequence[Operation], outputs: Sequence[int | str]
+) -> tuple[Mapping[int | str, str], Copies, int]:
+    """Return the variable in which each node's values are held, what is to be copied, how many buffers.
 
-    Outputs are held in their own rows, named o0, o1, …; other values in rows that are not filled yet, and in
-    buffers, b0, b1, …: in the row of the output that becomes of them, if it is free, else in the place that
-    was free last of those that stay free as long. An output that is no node, or that has an earlier row, is
-    to be copied.
+    The operations are given in the order of their work. Outputs are held in their own rows, named o0, o1, …;
+    other values in rows that are not filled yet, and in buffers, b0, b1, …: in the row of the output that
+    becomes of them, if it is free, else in the place that was free last of those that stay free as long. An
+    output that is no node, or that has an earlier row, is to be copied.
     """
     computed = {index for index, *_ in operations}
     held: dict[int | str, str] = {}
@@ -88,7 +86,7 @@ def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> 
                 del free[n]
         else:
             held[index], buffers = f"b{buffers}", buffers + 1
-    return Allocation(held, tuple(copies), buffers)
+    return held, tuple(copies), buffers
 
 
 # Compile symbolic expressions into a function of floats and into passes over blocks of arrays.
@@ -521,17 +519,18 @@ class _Passes:
         """The function that runs one block, given its inputs, result rows and buffers."""
         rows = (f"o{row}" for row in range(len(self._outputs)))
         buffers = (f"b{n}" for n in range(self.buffers))
-        lines = [*_calls(self._operations, self._places)] or ["pass"]
+        held, copies, _ = self._places
+        lines = [*_calls(self._operations, held, copies)] or ["pass"]
         code = _compiled("block", (*self._inputs, *rows, *buffers), lines)
         return _function(code, "block", {**UFUNCS, "where": np.where})
 
     @property
     def buffers(self) -> int:
         """How many buffers a block takes."""
-        return self._places.buffers
+        return self._places[2]
 
     @cached_property
-    def _places(self) -> Allocation:
+    def _places(self) -> tuple[Mapping[int | str, str], Copies, int]:
         return allocated(self._operations, self._outputs)
 
 
@@ -539,9 +538,8 @@ _passes = lru_cache(maxsize=_KEPT)(_Passes)
 """The passes of equal operations, which linkages of one form share."""
 
 
-def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]:
+def _calls(operations: Sequence[Operation], held: Mapping[int | str, str], copies: Copies) -> Iterator[str]:
     """Yield the numpy calls in order."""
-    held = places.held
     for index, op, arguments in operations:
         given, place = [held.get(value) or variable(value) for value in arguments], held[index]
         if op == "select":
@@ -551,6 +549,6 @@ def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]
             # A keyword costs time at every call; numpy requires it of these two only.
             target = f"out={place}" if op in ("minimum", "maximum") else place
             yield f"{op}({', '.join(given)}, {target})"
-    for row, value in places.copies:
+    for row, value in copies:
         # a constant is an array of no dimension: numpy would make one of a plain number at every call
         yield f"o{row}[...] = {held.get(value) or variable(value)}"

@@ -19,6 +19,7 @@ from itertools import combinations
 from typing import Any, NamedTuple
 
 from linkanim.intake import few, meant
+from linkanim.mechanics.followed import FollowedGroup
 from linkanim.mechanics.groups import (
     GroupGear,
     GroupLink,
@@ -26,7 +27,6 @@ from linkanim.mechanics.groups import (
     GroupPoint,
     GroupSlide,
     GroupSlider,
-    LinkGroup,
 )
 from linkanim.mechanics.linkage import RRP, RRR, Drive, Linkage, Pin, Travel
 from linkanim.scenes.file_form import (
@@ -718,7 +718,7 @@ def _group(
     placed = {point for name in own for point in pose.links[name]} - known
     points = tuple(name for name in _connected(pose, known) if name in placed)
     before = tuple(name for name in pose.links if name in head and name != crank)
-    group = LinkGroup(at, crank, members, points, slides, gears, motor, slide, before)
+    group = FollowedGroup(at, crank, members, points, slides, gears, motor, slide, before)
     own_slides = group.own_slides
     blocks = {slide.point: slide.link for slide in own_slides if not slide.turns and group.line(slide)}
     chain.blocks |= {link: point for point, link in blocks.items()}

@@ -15,7 +15,6 @@ from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import batch
 from linkanim.mechanics.solver.closing import CLOSERS, Assembly, refuse_loose, walk_at
-from linkanim.mechanics.solver.courses import BY_ANGLE, followed_course
 from linkanim.mechanics.solver.input import InputPath, Swing, Turn
 from linkanim.mechanics.solver.loop import Gearing, Loop, arcs_of, gearings, open_arcs
 from linkanim.mechanics.solver.signed_root import Kind
@@ -33,9 +32,9 @@ def assemble(linkage: Linkage) -> Assembly:
     arcs = open_arcs(linkage, loops)
     paths: tuple[InputPath, ...] = ()
     course = None
-    if group_of(scaled):
-        path, course = followed_course(scaled, 1.0 / scale)
-        paths = () if course.by == BY_ANGLE else (_within(arcs, path),)
+    if group := group_of(scaled):
+        path, course = group.followed(scaled, 1.0 / scale)
+        paths = () if course.by_angle else (_within(arcs, path),)
     turns = course.turns if course and not paths else 1
     return _named(
         Assembly(scaled, loops, path, {}, 1.0 / scale, course=course)

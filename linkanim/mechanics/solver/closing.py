@@ -17,7 +17,7 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import accumulate
 from operator import mul
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from linkanim.errors import AssemblyError, DyadAtLimit
 from linkanim.frozen import frozen
@@ -67,7 +67,6 @@ from linkanim.mechanics.linkage import (
 from linkanim.mechanics.precise import context, cosine, direction, exactly, nearest_sum
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import around, samples_a_turn
-from linkanim.mechanics.solver.courses import GroupMotion, reader
 from linkanim.mechanics.solver.input import InputPath, InputState, TravelState
 from linkanim.mechanics.solver.loop import (
     Gearing,
@@ -95,6 +94,9 @@ from linkanim.mechanics.solver.signed_root import (
 )
 from linkanim.mechanics.tolerances import BESIDE_AN_END, SMALLEST
 from linkanim.words import to_say
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.solver.courses import GroupMotion
 
 # The signed root of a dyad on moving points that limits the input, or passes change points.
 #
@@ -416,7 +418,7 @@ def _root_near(
         return root
     if near.across is None:
         return root.with_altitude(Reduced(far.altitude.across, chosen(q.value * others, far.altitude.q)))
-    reduced = _vector(*(fit.at(distance.argument) for fit in near.across))
+    reduced = vector_of(*(fit.at(distance.argument) for fit in near.across))
     points = [
         Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.altitude.across, strict=True)
     ]
@@ -432,7 +434,7 @@ def _root(x: Moving) -> Moving:
     return Moving(root, rate, (x.second * 0.5 - rate * rate) / root)
 
 
-def _vector(x: Moving, y: Moving) -> MovingPoint:
+def vector_of(x: Moving, y: Moving) -> MovingPoint:
     """Return the vector of two moving components."""
     return MovingPoint(Vec(x.value, y.value), Vec(x.rate, y.rate), Vec(x.second, y.second))
 
@@ -1029,34 +1031,11 @@ def yoke_name(joint: RPP, assembly: Assembly) -> str:
 
 
 def place_group(point: GroupPoint, walk: Walk) -> None:
-    """Add all points of a group and all of its links, by the polynomials of its course."""
-    course, group = walk.assembly.course, point.group
+    """Add all points of a group and all of its links, at the first of them."""
     if walk.exact:
         raise DyadAtLimit(f"joint {point.name}: it is not known to fifty digits, which a dyad's limit needs")
-    if point.name in walk.points or course is None:
-        return
-    read = reader(course, walk.state, walk.assembly.path, walk.linkage.drive.start)
-    placed = {name.rpartition(".")[0] for name in course.coefficients if name.endswith(".x")}
-    for name in group.points:
-        if name in placed:
-            x, y = (read(f"{name}.{part}") for part in "xy")
-            walk.points[name] = _vector(x, y)
-    for name, ((first, second), share) in course.derived.items():
-        start, way = walk.points[first], walk.points[second] - walk.points[first]
-        by = Vec(share.real, share.imag)
-        walk.points[name] = start + MovingPoint(*(part.times(by) for part in way))
-    for member in group.free:
-        if len(member.points) > 1:
-            first, *others = member.points
-            apart = {name: abs(member.place(name) - member.place(first)) for name in others}
-            second = max(apart, key=lambda name: round(apart[name] / max(apart.values()), 6))
-            way = walk.points[second] - walk.points[first]
-            square = apart[second] ** 2
-            turn = way.position.cross(way.velocity) / square
-            bent = way.position.cross(way.acceleration) / square
-            walk.add_piece(Slope(turn, bent), (first, second), way.position)
-    for slide in group.own_slides:
-        walk.travels[slide.point] = read(slide.name)
+    if point.name not in walk.points and walk.assembly.course is not None:
+        point.group.place(walk)
 
 
 class Closer(NamedTuple):

@@ -309,6 +309,11 @@ class GroupMotion:
     derived: Mapping[str, tuple[tuple[str, str], complex]]
 
     @property
+    def by_angle(self) -> bool:
+        """Whether it goes by the angle of an input that turns fully."""
+        return self.by == BY_ANGLE
+
+    @property
     def pieces(self) -> int:
         """The number of pieces."""
         return len(self.centres.values)
@@ -615,7 +620,7 @@ def reader(course: GroupMotion, state: InputState, path: InputPath, start: float
     if course.by == BY_LENGTH:
         near, pace = _gone(state, path)
     else:
-        phase, rest, pace = _from_start(state, start) if course.by == BY_ANGLE else _phase(state)
+        phase, rest, pace = _from_start(state, start) if course.by_angle else _phase(state)
         _, near = reduced(phase, rest, 2.0 * course.turns)
     half = course.turns * math.pi
     place = rint(near * (course.bins / (2 * half)) + (course.bins / 2 - 0.5))

@@ -45,7 +45,6 @@ from linkanim.mechanics.solver.closing import (
     walk_at,
     walking,
 )
-from linkanim.mechanics.solver.courses import BY_ANGLE
 from linkanim.mechanics.solver.input import InputPath, Limit, Swing, swing_by_angle
 from linkanim.mechanics.solver.loop import ONE_PLACE
 from linkanim.mechanics.tolerances import (
@@ -822,7 +821,7 @@ def restricted(assembly: Assembly, linkage: Linkage, apart: Separations) -> Asse
     if not apart.names:
         return assembly
     closes = apart.closes
-    if assembly.course and assembly.course.by != BY_ANGLE:
+    if assembly.course and not assembly.course.by_angle:
         if not closes or any(map(apart.touches, apart.names)):
             raise DyadAtLimit("a dyad comes to a limit on the path of the links that are solved together")
         return fitted(assembly)

@@ -101,15 +101,6 @@ class Links(NamedTuple):
         return Links(self.crank, self.ground, self.rocker, self.coupler, short)
 
 
-class Closure(NamedTuple):
-    """ψ/2, q and its `excess` (see `SignedRoot`); lengths squared are divided by `unit`, 4 g r."""
-
-    half: Half
-    q: Value
-    excess: Value
-    unit: float
-
-
 class _Grown(NamedTuple):
     """least + share × sin²(ψ/2), a factor of ω."""
 
@@ -118,107 +109,91 @@ class _Grown(NamedTuple):
     value: Value
 
 
-class _Terms(NamedTuple):
-    """T, p, d and L² with their constants, and cot(ψ/2)."""
+class KiteRates:
+    """ω of a rocker next to a kite, and its derivative, both by the crank's angle.
 
-    t: Value
-    p: _Grown
-    d: _Grown
-    long: _Grown
-    cot: Value
+    `half` is ψ/2, `q` the signed root and `excess` its own (see `SignedRoot`); lengths squared are divided by
+    `unit`, 4 g r. T, p, d and L² have their constants.
+    """
 
+    def __init__(self, links: Links, half: Half, q: Value, excess: Value, unit: float) -> None:
+        self.links, self.half, self.q, self.excess, self.unit = links, half, q, excess, unit
+        short = math.fsum(links.short)
+        self.square = half.sine * half.sine
+        most = Fraction(short) ** 2 + Fraction(links.coupler) ** 2 - Fraction(links.rocker) ** 2
+        self.t = half.sine * half.cosine * 0.5
+        self.p = self._grown(float(most) / unit)
+        self.d = self._grown(-links.crank * short / unit, 0.5)
+        self.long = self._grown(over(short * short, unit))
+        self.cot = half.cosine / half.sine
 
-def turning(links: Links, closing: Closure) -> tuple[Value, Value]:
-    """Return ω of the rocker and its derivative by the crank's angle."""
-    terms = _terms(links, closing)
-    first, second = terms.t * terms.p.value, closing.q * terms.d.value
-    total, other = first + second, first - second
-    # A sum that keeps a fair share of its terms needs no differences, which the other form does.
-    cancelled = total * total * CANCELLED
-    summed, product = _as_sum(links, terms, closing), _as_product(links, terms, closing)
-    omega, bend = (select(cancelled, other * other, b, a) for a, b in zip(summed, product, strict=True))
-    return omega, bend
+    def turning(self) -> tuple[Value, Value]:
+        """Return ω and its derivative."""
+        first, second = self.t * self.p.value, self.q * self.d.value
+        total, other = first + second, first - second
+        # A sum that keeps a fair share of its terms needs no differences, which the other form does.
+        cancelled = total * total * CANCELLED
+        summed, product = self._as_sum(), self._as_product()
+        omega, bend = (select(cancelled, other * other, b, a) for a, b in zip(summed, product, strict=True))
+        return omega, bend
 
+    def _grown(self, least: float, share: float = 1.0) -> _Grown:
+        return _Grown(least, share, self.square * share + least)
 
-def _terms(links: Links, closing: Closure) -> _Terms:
-    half, unit, short = closing.half, closing.unit, math.fsum(links.short)
-    square = half.sine * half.sine
+    def _left(self, sign: float) -> Value:
+        """Return the rate of T p ± q d without the shares of its squares and constants."""
+        own = self.square * self.p.value * 0.25
+        return own + self.q * self.d.value * self.excess * (0.5 * sign)
 
-    def grown(least: float, share: float = 1.0) -> _Grown:
-        return _Grown(least, share, square * share + least)
+    def _of_constants(self, sign: float) -> Value:
+        """Return the constants' share in T p ± q d; where that cancels, over the sum with the other sign."""
+        x, (constant, linear, square) = self.square, self._difference_of_squares()
+        first, second = self.t * self.p.least, self.q * (self.d.least * sign)
+        product = ((x * square + linear) * x + constant) / (first - second)
+        return select(first * second, 0.0, product, first + second)
 
-    excess = Fraction(short) ** 2 + Fraction(links.coupler) ** 2 - Fraction(links.rocker) ** 2
-    return _Terms(
-        half.sine * half.cosine * 0.5,
-        grown(float(excess) / unit),
-        grown(-links.crank * short / unit, 0.5),
-        grown(over(short * short, unit)),
-        half.cosine / half.sine,
-    )
+    def _difference_of_squares(self) -> tuple[float, float, float]:
+        """Return the coefficients of (T p)² - (q d)² in sin²(ψ/2), p and d without that square in them."""
+        r, a, b = Fraction(self.links.crank), Fraction(self.links.coupler), Fraction(self.links.rocker)
+        short = sum(map(Fraction, self.links.short), Fraction(0))
+        unit = 4 * (r + short) * r
+        p, d = ((short**2 + a**2 - b**2) / unit / 2) ** 2, (r * short / unit) ** 2
+        u, w = ((a + b) ** 2 - short**2) / unit, (short**2 - (a - b) ** 2) / unit
+        return float(-u * w * d), float(p - (u - w) * d), float(d - p)
 
+    def _as_sum(self) -> tuple[Value, Value]:
+        t, p, d, long, q = self.t, self.p, self.d, self.long, self.q
+        total, both = t * p.value + q * d.value, self.half.sine * self.half.cosine
+        omega = total / (long.value * q)
+        constants = self.cot * (omega * long.least - self._of_constants(1.0) / q) / long.value
+        squares = both * ((t + q * 0.5) / q - omega) / long.value
+        part = select(self.square, long.least, squares, constants)
+        rest = self._left(1.0) / (long.value * q)
+        return omega, part + omega * self.excess * 0.5 - rest
 
-def _left(terms: _Terms, closing: Closure, sign: float) -> Value:
-    """Return the rate of T p ± q d without the shares of its squares and constants."""
-    own = closing.half.sine * closing.half.sine * terms.p.value * 0.25
-    return own + closing.q * terms.d.value * closing.excess * (0.5 * sign)
+    def _as_product(self) -> tuple[Value, Value]:
+        t, q, half, links = self.t, self.q, self.half, self.links
+        one, two = self._collinear()
+        total, both = t * self.p.value - q * self.d.value, half.sine * half.cosine
+        share = (links.crank / (4.0 * links.ground)) / (q * total)
+        omega = one.value * two.value * share
+        left = omega * self._of_constants(-1.0) / total
+        constants = self.cot * (left - two.value * share * one.least)
+        squares = both * (two.value * share * one.share - omega * (t - q * 0.5) / total)
+        mark = abs(one.least / one.share) if one.share else math.inf
+        part = select(self.square, mark, squares, constants)
+        rest = self._left(-1.0) / total
+        return omega, part - self.cot * one.value * share * two.least + omega * (self.excess * 0.5 + rest)
 
-
-def _of_constants(links: Links, terms: _Terms, closing: Closure, sign: float) -> Value:
-    """Return the constants' share in T p ± q d; where that cancels, over the sum with the other sign."""
-    x, (constant, linear, square) = closing.half.sine * closing.half.sine, _difference_of_squares(links)
-    first, second = terms.t * terms.p.least, closing.q * (terms.d.least * sign)
-    product = ((x * square + linear) * x + constant) / (first - second)
-    return select(first * second, 0.0, product, first + second)
-
-
-def _difference_of_squares(links: Links) -> tuple[float, float, float]:
-    """Return the coefficients of (T p)² - (q d)² in sin²(ψ/2), p and d without that square in them."""
-    r, a, b = Fraction(links.crank), Fraction(links.coupler), Fraction(links.rocker)
-    short = sum(map(Fraction, links.short), Fraction(0))
-    unit = 4 * (r + short) * r
-    p, d = ((short**2 + a**2 - b**2) / unit / 2) ** 2, (r * short / unit) ** 2
-    u, w = ((a + b) ** 2 - short**2) / unit, (short**2 - (a - b) ** 2) / unit
-    return float(-u * w * d), float(p - (u - w) * d), float(d - p)
-
-
-def _as_sum(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, Value]:
-    (t, p, d, long, cot), q = terms, closing.q
-    total, both = t * p.value + q * d.value, closing.half.sine * closing.half.cosine
-    omega = total / (long.value * q)
-    constants = cot * (omega * long.least - _of_constants(links, terms, closing, 1.0) / q) / long.value
-    squares = both * ((t + q * 0.5) / q - omega) / long.value
-    square = closing.half.sine * closing.half.sine
-    part = select(square, long.least, squares, constants)
-    rest = _left(terms, closing, 1.0) / (long.value * q)
-    return omega, part + omega * closing.excess * 0.5 - rest
-
-
-def _as_product(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, Value]:
-    (t, p, d, _, cot), q, half = terms, closing.q, closing.half
-    one, two = _collinear(links, closing)
-    total, both = t * p.value - q * d.value, half.sine * half.cosine
-    share = (links.crank / (4.0 * links.ground)) / (q * total)
-    omega = one.value * two.value * share
-    left = omega * _of_constants(links, terms, closing, -1.0) / total
-    constants = cot * (left - two.value * share * one.least)
-    squares = both * (two.value * share * one.share - omega * (t - q * 0.5) / total)
-    mark = abs(one.least / one.share) if one.share else math.inf
-    part = select(half.sine * half.sine, mark, squares, constants)
-    rest = _left(terms, closing, -1.0) / total
-    return omega, part - cot * one.value * share * two.least + omega * (closing.excess * 0.5 + rest)
-
-
-def _collinear(links: Links, closing: Closure) -> tuple[_Grown, _Grown]:
-    """Return F and G, the one with the greater constant first."""
-    r, a, b, short = links.crank, links.coupler, links.rocker, links.short
-    square = closing.half.sine * closing.half.sine
-    factors = []
-    for signed in (a, -a):
-        least = math.fsum((*short, signed, -b)) * math.fsum((*short, signed, b)) / closing.unit
-        share = (r - signed) / r
-        factors.append(_Grown(least, share, square * share + least))
-    one, two = sorted(factors, key=lambda factor: -abs(factor.least))
-    return one, two
+    def _collinear(self) -> tuple[_Grown, _Grown]:
+        """Return F and G, the one with the greater constant first."""
+        r, a, b, short = self.links.crank, self.links.coupler, self.links.rocker, self.links.short
+        factors = []
+        for signed in (a, -a):
+            least = math.fsum((*short, signed, -b)) * math.fsum((*short, signed, b)) / self.unit
+            factors.append(self._grown(least, (r - signed) / r))
+        one, two = sorted(factors, key=lambda factor: -abs(factor.least))
+        return one, two
 
 
 class Triangle(NamedTuple):
@@ -307,11 +282,10 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
 def _longer(loop: PinLoop, links: Links, root: SignedRoot, turn: Slope) -> Slope:
     """Return how the longer bar turns next to a kite; it is `turn` where the pins are far apart."""
     assert root.excess is not None
-    closing = Closure(loop.half, root.q, root.excess, loop.unit)
-    if links.coupler < links.rocker:
-        rate, bend = turning(links, closing)
-    else:
-        rate, bend = turning(links.inverted(), closing)
+    second = links.coupler < links.rocker
+    seen = links if second else links.inverted()
+    rate, bend = KiteRates(seen, loop.half, root.q, root.excess, loop.unit).turning()
+    if not second:
         rate, bend = 1.0 - rate, -bend
     square, (w, wd) = loop.half.sine * loop.half.sine, (loop.pace.value, loop.pace.rate)
     return Slope(
