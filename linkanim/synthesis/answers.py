@@ -242,7 +242,7 @@ def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | No
         return None
     if task.requirements.full_turn and not full:
         return None
-    return _fit(task, _Answer(scene, row, closure, "angle"), angles)
+    return _Answer(task, scene, row, closure, "angle").fit(angles)
 
 
 def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) -> Fit | None:
@@ -270,24 +270,26 @@ def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) ->
     except (AssemblyError, SceneError):
         return None
     phases = phases[0] + np.append(0.0, np.cumsum(steps))
-    return _fit(task, _Answer(scene, row, closure, "phase"), phases)
+    return _Answer(task, scene, row, closure, "phase").fit(phases)
 
 
 def checked_again(task: PathTask, fit: Fit, chosen: Indices) -> Fit | None:
     """Return an answer to the task among `chosen` points as one at all points; None where it is none."""
     by: Literal["angle", "phase"] = "angle" if fit.phases is None else "phase"
-    answer = _Answer(fit.scene, fit.row, fit.closure_sign, by)
+    whole = replace(task, requirements=fit.task.requirements)
+    answer = _Answer(whole, fit.scene, fit.row, fit.closure_sign, by)
     places = fit.angles if fit.phases is None else fit.phases
     turn = np.array([[math.copysign(answer.round, places[-1] - places[0])]])
     along = task.spread(places[None], turn, chosen, np.arange(len(task.curve.points)))[0]
     exact = fit.exact and checked_again(task, fit.exact, chosen)
-    again = _fit(replace(task, requirements=fit.task.requirements), answer, along)
+    again = answer.fit(along)
     return again and replace(again, exact=exact)
 
 
 class _Answer(NamedTuple):
-    """A linkage as a scene, its row of parameters and closure, and what its places are: angles or phases."""
+    """A linkage for a task as a scene, its row and closure, and what its places are: angles or phases."""
 
+    task: PathTask
     scene: Scene
     row: Real
     closure: float
@@ -310,6 +312,116 @@ class _Answer(NamedTuple):
         at = self.scene.solve(phase=places, derivatives=0).position
         return np.unwrap(np.angle(as_complex(at["A"]) - as_complex(at["O2"])))
 
+    def fit(self, places: Real) -> Fit | None:
+        """Return an answer with its deviations and its least transmission angle.
+
+        None where it does not pass the points in order near given places, or falls below the least angle.
+        """
+        if not _in_order(self.task, places, self.round):
+            return None
+        places, off = self._feet(places)
+        if not np.isfinite(off).all():
+            return None
+        least, stray = self._least_transmission(places), self._stray(places)
+        if not least >= self.task.requirements.angle_to_keep(self.by) - _SLACK or not math.isfinite(stray):
+            return None
+        return Fit(
+            scene=self.scene,
+            parameters=parameters_of(self.task.kind, self.row),
+            closure=self.task.kind.sides[self.closure < 0],
+            angles=self.angles(places),
+            phases=None if self.by == "angle" else places,
+            rms=float(np.sqrt((off**2).mean())),
+            largest=float(off.max()),
+            stray=stray,
+            transmission_angle=least,
+            size=float(self.task.kind.link_lengths(self.row[None])[0].max()),
+            task=self.task,
+        )
+
+    def _feet(self, places: Real) -> tuple[Real, Real]:
+        """Return the places at which the points are passed, in order, and how far each point is off.
+
+        A point's distance is to the nearest place of the curve near by, or, with prescribed timing, to the
+        coupler point at that time. Neighbours whose nearest places are in the wrong order still count as
+        ordered if they are exchanged by no more than the points are off.
+        """
+        points = self.task.curve.points
+        if self.task.timing is not None:
+            return places, np.abs(self.traced(places) - points)
+        sense = 1.0 if places[-1] > places[0] else -1.0
+        places = self._passed(places)
+        nearest = self._nearest(points, places)
+        ordered = sense * _ascending(sense * nearest, self.round if self.task.curve.closed else math.inf)
+        passed = self.traced(nearest)
+        off = np.abs(passed - points)
+        if np.abs(self.traced(ordered) - passed).max() <= 2 * off.max() + _SLACK * self.task.curve.size:
+            return ordered, off
+        return places, np.abs(self.traced(places) - points)
+
+    def _passed(self, places: Real) -> Real:
+        """Return the places, among equal steps along the curve, nearest to the points in their order.
+
+        Of all ways to pass the points in order it is the one with the least sum of squares; the given places
+        are returned where it would take more than one round.
+        """
+        chosen = self.task.thinned(_STEPPED)
+        span = places[-1] - places[0]
+        span = math.copysign(self.round, span) if self.task.curve.closed else span
+        steps = np.linspace(places[0] - _BEYOND * span, places[0] + (1 + _BEYOND) * span, _POSES)
+        squares = np.abs(self.traced(steps) - self.task.curve.points[chosen, None]) ** 2
+        squares, numbers = np.where(np.isfinite(squares), squares, np.inf), np.arange(_POSES)
+        total, before = squares[0], []
+        for square in squares[1:]:
+            least = np.minimum.accumulate(total)
+            before.append(np.maximum.accumulate(np.where(total <= least, numbers, 0)))
+            total = least + square
+        backwards = [int(total.argmin())]
+        for last in reversed(before):
+            backwards.append(int(last[backwards[-1]]))
+        along = self.task.normal.places
+        passed = np.interp(along, along[chosen], steps[backwards[::-1]])
+        return passed if _in_order(self.task, passed, self.round) else places
+
+    def _nearest(self, points: Complex, places: Real) -> Real:
+        """Return where, near to given places, the coupler point is nearest to each point: Newton's steps."""
+        best = places.copy()
+        least, reach = np.abs(self.traced(best) - points), np.full(len(best), _FARTHEST_STEP)
+        active = np.arange(len(best))
+        for _ in range(_FOOT_STEPS):
+            motion = self.scene.solve(**{self.by: best[active]}, speed=1.0)  # type: ignore[arg-type]
+            missing = points[active] - as_complex(motion.position["P"])
+            rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
+            with np.errstate(all="ignore"):
+                square = np.abs(rate) ** 2
+                bend = square - (np.conj(turn) * missing).real
+                step = np.nan_to_num((np.conj(rate) * missing).real / np.where(bend > 0, bend, square))
+            step = np.clip(step, -reach[active], reach[active])
+            off = np.abs(self.traced(best[active] + step) - points[active])
+            nearer = off < least[active]
+            best[active] += np.where(nearer, step, 0.0)
+            least[active] = np.where(nearer, off, least[active])
+            reach[active] = np.where(nearer, _FARTHEST_STEP, np.abs(step) / 4)
+            active = active[np.abs(step) > _LAST_STEP]
+            if not len(active):
+                break
+        return best
+
+    def _least_transmission(self, places: Real) -> float:
+        """Return the least transmission angle: over the whole motion, or along an open curve."""
+        if self.task.curve.closed:
+            known = self.scene.info.transmission
+            return known.least if known else math.pi / 2
+        # in a swing it is extreme at its limits and half-way
+        extremes = (self.task.kind.extreme(self.row), math.pi) if self.by == "angle" else (0.0, math.pi / 2)
+        return least_along(self.scene, self.by, (float(places.min()), float(places.max())), extremes)
+
+    def _stray(self, places: Real) -> float:
+        """Return the coupler point's largest distance from the polyline; of an open one, between its ends."""
+        first, last = places[0], places[-1]
+        last = first + math.copysign(self.round, last - first) if self.task.curve.closed else last
+        return _farthest(self.traced(np.linspace(first, last, _POSES)), self.task.curve)
+
 
 def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]) -> Scene:
     """Return the scene of a linkage, its crank starting at an angle, in a sense (±1)."""
@@ -318,87 +430,12 @@ def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]
     return scene_from(document, name=task.name, where=task.name)
 
 
-def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
-    """Return an answer with its deviations and its least transmission angle.
-
-    None where it does not pass the points in order near given places, or falls below the least angle.
-    """
-    if not _in_order(task, places, answer.round):
-        return None
-    places, off = _feet(answer, task, places)
-    if not np.isfinite(off).all():
-        return None
-    least, stray = _least_transmission(answer, task, places), _stray(answer, task, places)
-    if not least >= task.requirements.angle_to_keep(answer.by) - _SLACK or not math.isfinite(stray):
-        return None
-    return Fit(
-        scene=answer.scene,
-        parameters=parameters_of(task.kind, answer.row),
-        closure=task.kind.sides[answer.closure < 0],
-        angles=answer.angles(places),
-        phases=None if answer.by == "angle" else places,
-        rms=float(np.sqrt((off**2).mean())),
-        largest=float(off.max()),
-        stray=stray,
-        transmission_angle=least,
-        size=float(task.kind.link_lengths(answer.row[None])[0].max()),
-        task=task,
-    )
-
-
 def keeps(task: PathTask, row: Real) -> bool:
     """Return whether a linkage keeps all limits, but for rounding."""
     margins = task.requirements.margins(task.kind, row[None])
     mask, values = task.requirements.held(task.kind)
     given = np.abs(row - values) * mask
     return bool((margins >= -_SLACK * task.curve.size).all() and (given <= _SLACK * task.curve.size).all())
-
-
-def _feet(answer: _Answer, task: PathTask, places: Real) -> tuple[Real, Real]:
-    """Return the places at which the points are passed, in order, and how far each point is off.
-
-    A point's distance is to the nearest place of the curve near by, or, with prescribed timing, to the
-    coupler point at that time. Neighbours whose nearest places are in the wrong order still count as ordered
-    if they are exchanged by no more than the points are off.
-    """
-    points = task.curve.points
-    if task.timing is not None:
-        return places, np.abs(answer.traced(places) - points)
-    sense = 1.0 if places[-1] > places[0] else -1.0
-    places = _passed(answer, task, places)
-    nearest = _nearest(answer, points, places)
-    ordered = sense * _ascending(sense * nearest, answer.round if task.curve.closed else math.inf)
-    passed = answer.traced(nearest)
-    off = np.abs(passed - points)
-    if np.abs(answer.traced(ordered) - passed).max() <= 2 * off.max() + _SLACK * task.curve.size:
-        return ordered, off
-    return places, np.abs(answer.traced(places) - points)
-
-
-def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
-    """Return the places, among equal steps along the curve, that are nearest to the points in their order.
-
-    Of all ways to pass the points in order it is the one with the least sum of squares; the given places
-    are returned where it would take more than one round.
-    """
-    chosen = task.thinned(_STEPPED)
-    span = (
-        math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1] - places[0]
-    )
-    steps = np.linspace(places[0] - _BEYOND * span, places[0] + (1 + _BEYOND) * span, _POSES)
-    squares = np.abs(answer.traced(steps) - task.curve.points[chosen, None]) ** 2
-    squares, numbers = np.where(np.isfinite(squares), squares, np.inf), np.arange(_POSES)
-    total, before = squares[0], []
-    for square in squares[1:]:
-        least = np.minimum.accumulate(total)
-        before.append(np.maximum.accumulate(np.where(total <= least, numbers, 0)))
-        total = least + square
-    backwards = [int(total.argmin())]
-    for last in reversed(before):
-        backwards.append(int(last[backwards[-1]]))
-    along = task.normal.places
-    passed = np.interp(along, along[chosen], steps[backwards[::-1]])
-    return passed if _in_order(task, passed, answer.round) else places
 
 
 def _ascending(places: Real, most: float) -> Real:
@@ -411,46 +448,11 @@ def _ascending(places: Real, most: float) -> Real:
     return np.array(ascending)
 
 
-def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
-    """Return where, near to given places, the coupler point is nearest to each point: Newton's steps."""
-    best = places.copy()
-    least, reach = np.abs(answer.traced(best) - points), np.full(len(best), _FARTHEST_STEP)
-    active = np.arange(len(best))
-    for _ in range(_FOOT_STEPS):
-        motion = answer.scene.solve(**{answer.by: best[active]}, speed=1.0)  # type: ignore[arg-type]
-        missing = points[active] - as_complex(motion.position["P"])
-        rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
-        with np.errstate(all="ignore"):
-            square = np.abs(rate) ** 2
-            bend = square - (np.conj(turn) * missing).real
-            step = np.nan_to_num((np.conj(rate) * missing).real / np.where(bend > 0, bend, square))
-        step = np.clip(step, -reach[active], reach[active])
-        off = np.abs(answer.traced(best[active] + step) - points[active])
-        nearer = off < least[active]
-        best[active] += np.where(nearer, step, 0.0)
-        least[active] = np.where(nearer, off, least[active])
-        reach[active] = np.where(nearer, _FARTHEST_STEP, np.abs(step) / 4)
-        active = active[np.abs(step) > _LAST_STEP]
-        if not len(active):
-            break
-    return best
-
-
 def _in_order(task: PathTask, places: Real, most: float) -> bool:
     """Return whether the points are passed one after the other, a closed curve in one round."""
     steps = np.diff(places) * (1 if places[-1] > places[0] else -1)
     whole = abs(places[-1] - places[0]) < most + _SLACK
     return task.timing is not None or bool((steps > -_SLACK).all() and whole)
-
-
-def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
-    """Return the least transmission angle: over the whole motion, or along an open curve."""
-    if task.curve.closed:
-        known = answer.scene.info.transmission
-        return known.least if known else math.pi / 2
-    # in a swing it is extreme at its limits and half-way
-    extremes = (task.kind.extreme(answer.row), math.pi) if answer.by == "angle" else (0.0, math.pi / 2)
-    return least_along(answer.scene, answer.by, (float(places.min()), float(places.max())), extremes)
 
 
 def least_along(scene: Scene, by: str, ends: tuple[float, float], extremes: tuple[float, float]) -> float:
@@ -463,14 +465,6 @@ def least_along(scene: Scene, by: str, ends: tuple[float, float], extremes: tupl
     along = np.array([low, *(first + between * step), high])
     motion = scene.solve(**{by: along}, derivatives=0)  # type: ignore[arg-type]
     return float(np.min(transmission_angle(motion, "B")))
-
-
-def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
-    """Return the coupler point's largest distance from the polyline; from an open one, between its ends."""
-    last = (
-        places[0] + math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1]
-    )
-    return _farthest(answer.traced(np.linspace(places[0], last, _POSES)), task.curve)
 
 
 def _farthest(path: Complex, curve: DrawnCurve) -> float:

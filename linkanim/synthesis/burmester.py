@@ -292,17 +292,6 @@ def _raised(linear: _Linear, conic: list[Any]) -> list[Any]:
 # Four poses: the cubic of the centre points.
 
 
-class CurveCircuit(NamedTuple):
-    """A part of the cubic, by the lines through a pole that meet it: between two directions, or all round.
-
-    `sign` is the sign of the root; 0 where it changes at both ends, so that the part is one closed curve.
-    """
-
-    low: float
-    high: float
-    sign: float
-
-
 @frozen(eq=False)
 class CentreCurve:
     """The centre points of four poses: circuits, each walked by a phase from 0 to 2π.
@@ -359,19 +348,23 @@ class CentreCurve:
         )
 
     @cached_property
-    def circuits(self) -> tuple[CurveCircuit, ...]:
-        """Its circuits: closed curves between two directions, or all the way round once for each root."""
+    def circuits(self) -> tuple[tuple[float, float, float], ...]:
+        """Its circuits: closed curves between two directions, or all the way round once for each root.
+
+        Each is told by the directions of the lines through a pole that meet it, the first and the last, and
+        the sign of the root: 0 where that changes at both ends.
+        """
         _, form = self._about
         zeros = _discriminant_zeros(form)
         if not zeros:
-            return CurveCircuit(0.0, math.pi, 1.0), CurveCircuit(0.0, math.pi, -1.0)
+            return (0.0, math.pi, 1.0), (0.0, math.pi, -1.0)
         ends = [*zeros, zeros[0] + math.pi]
         spans = [
             (low, high)
             for low, high in pairwise(ends)
             if _discriminant(form, np.array([(low + high) / 2]))[0] > 0
         ]
-        return tuple(CurveCircuit(low, high, 0.0) for low, high in spans)
+        return tuple((low, high, 0.0) for low, high in spans)
 
     def at(self, circuit: int, phases: Real) -> Complex:
         """Return the points of a circuit at phases (k,), infinite or NaN at infinity."""

@@ -410,30 +410,33 @@ def _arc(centre: complex, first: float, last: float, reach: float) -> Complex:
 class InLineCentres(NamedTuple):
     """A linkage in both dead centres of its output: the crank's pivot, the crank's pins, the output's pins.
 
-    `pivot` is the rocker's, None for a slider; `angle` is that between the two directions (rad).
+    `pivot` is the rocker's, None for a slider.
     """
 
     crank_pivot: complex
     pins: tuple[complex, complex]
     ends: tuple[complex, complex]
     pivot: complex | None
-    angle: float
+
+    @property
+    def angle(self) -> float:
+        """The angle between the directions of both ends from the crank's pivot (rad)."""
+        return abs(cmath.phase((self.ends[1] - self.crank_pivot) / (self.ends[0] - self.crank_pivot)))
+
+    @property
+    def swing(self) -> float:
+        """The rocker's swing (rad), with its sense; 0 of a slider."""
+        if self.pivot is None:
+            return 0.0
+        return cmath.phase((self.ends[1] - self.pivot) / (self.ends[0] - self.pivot))
 
 
-class InLineParts(NamedTuple):
-    """The joints of a crank and its coupler; `held` is the rocker's pivot, None for a slider."""
-
-    pivot: str
-    pin: str
-    end: str
-    held: str | None
-
-
-def in_line_parts(scene: Scene) -> InLineParts | None:
+def in_line_parts(scene: Scene) -> tuple[str, str, str, str | None] | None:
     """Return the joints of a slider-crank or a crank-rocker whose crank is the input; None of others.
 
-    In a longer chain these are the first loop's joints. A coupler whose end does not swing has no dead
-    centres, nor has a rod as long as its crank, whose end may stay at the crank's pivot.
+    They are the crank's pivot and its pin, the coupler's end, and the rocker's pivot, None for a slider. In a
+    longer chain these are the first loop's joints. A coupler whose end does not swing has no dead centres,
+    nor has a rod as long as its crank, whose end may stay at the crank's pivot.
     """
     linkage = scene.linkage
     crank = linkage.driven.joint
@@ -442,7 +445,7 @@ def in_line_parts(scene: Scene) -> InLineParts | None:
     for joint in linkage.joints:
         if isinstance(joint, RRP) and joint.end == crank.name and joint.line.on is None:
             rests = math.isclose(joint.length, crank.length, rel_tol=_ALIKE)
-            return None if rests else InLineParts(crank.pivot, crank.name, joint.name, None)
+            return None if rests else (crank.pivot, crank.name, joint.name, None)
         if isinstance(joint, RRR) and crank.name in joint.ends:
             own = joint.ends.index(crank.name)
             held, coupler, rocker = joint.ends[1 - own], joint.lengths[own], joint.lengths[1 - own]
@@ -450,7 +453,7 @@ def in_line_parts(scene: Scene) -> InLineParts | None:
                 apart = abs(_pin_of(scene, held) - _pin_of(scene, crank.pivot))
                 near, far = abs(coupler - crank.length), coupler + crank.length
                 swings = abs(apart - rocker) < near and far < apart + rocker
-                return InLineParts(crank.pivot, crank.name, joint.name, held) if swings else None
+                return (crank.pivot, crank.name, joint.name, held) if swings else None
     return None
 
 
@@ -462,28 +465,28 @@ def dead_centres(scene: Scene) -> InLineCentres:
     """Return a crank-rocker or slider-crank with crank and coupler in line: overlapping, then stretched."""
     parts = in_line_parts(scene)
     assert parts
-    start = _pin_of(scene, parts.pivot)
+    o2, a, b, held = parts
+    start = _pin_of(scene, o2)
     motion = scene.cycle(1440, derivatives=0)
-    far = np.abs(as_complex(motion.position[parts.end]) - start)
-    crank = abs(complex(*scene.pose(0.0, 0).position[parts.pin]) - start)
+    far = np.abs(as_complex(motion.position[b]) - start)
+    crank = abs(complex(*scene.pose(0.0, 0).position[a]) - start)
     ends, pins = [], []
     for place in (far.argmin(), far.argmax()):
-        phase = _in_line(scene, parts, float(motion.phase[place]), start)
+        phase = _in_line(scene, (a, b), float(motion.phase[place]), start)
         pose = scene.pose(phase, 0)
-        end, pin = (complex(*pose.position[name]) for name in (parts.end, parts.pin))
+        end, pin = (complex(*pose.position[name]) for name in (b, a))
         ends.append(end)
         pins.append(start + crank * (pin - start) / abs(pin - start))
-    pivot = _pin_of(scene, parts.held) if parts.held else None
-    turned = abs(cmath.phase((ends[1] - start) / (ends[0] - start)))
-    return InLineCentres(start, (pins[0], pins[1]), (ends[0], ends[1]), pivot, turned)
+    pivot = _pin_of(scene, held) if held else None
+    return InLineCentres(start, (pins[0], pins[1]), (ends[0], ends[1]), pivot)
 
 
-def _in_line(scene: Scene, parts: InLineParts, phase: float, start: complex) -> float:
+def _in_line(scene: Scene, coupler: tuple[str, str], phase: float, start: complex) -> float:
     """Return the phase near a given one at which crank and coupler lie in line, by Newton's steps."""
     for _ in range(8):
         pose = scene.pose(phase, 1, speed=1.0)
-        pin, end = (complex(*pose.position[name]) - start for name in (parts.pin, parts.end))
-        pin_rate, end_rate = (complex(*pose.velocity[name]) for name in (parts.pin, parts.end))
+        pin, end = (complex(*pose.position[name]) - start for name in coupler)
+        pin_rate, end_rate = (complex(*pose.velocity[name]) for name in coupler)
         off = (pin.conjugate() * end).imag
         rate = (pin_rate.conjugate() * end).imag + (pin.conjugate() * end_rate).imag
         phase -= off / rate
@@ -495,7 +498,8 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
     parts, centres = in_line_parts(scene), dead_centres(scene)
     assert parts
     start, (near, far) = centres.crank_pivot, centres.ends
-    o2, a, b, unit = parts.pivot.translate(_SUBSCRIPTS), parts.pin, parts.end, scene.length_unit
+    (o2, a, b, held), unit = parts, scene.length_unit
+    o2 = o2.translate(_SUBSCRIPTS)
     crank, coupler = abs(centres.pins[0] - start), abs(far - centres.pins[1])
     word = name_said("rod" if centres.pivot is None else "coupler")
     marks = [
@@ -514,12 +518,9 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
             joint=b,
         )
     else:
-        o4 = (parts.held or "").translate(_SUBSCRIPTS)
+        o4 = (held or "").translate(_SUBSCRIPTS)
         where, arm = said("the circle about {pivot}", pivot=o4), abs(far - centres.pivot)
-        begin, swing = (
-            cmath.phase(near - centres.pivot),
-            cmath.phase((far - centres.pivot) / (near - centres.pivot)),
-        )
+        begin, swing = cmath.phase(near - centres.pivot), centres.swing
         arc = _arc(centres.pivot, begin - 0.3 * swing, begin + 1.3 * swing, arm)
         marks += [
             Mark("dot", _at(centres.pivot), o4, spreads=True),
@@ -577,8 +578,7 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
     if centres.pivot is None:
         what = said("The stroke is {chord}", chord=f"{b}′{b}″ = {abs(far - near):.4g} {unit}")
     else:
-        swing = math.degrees(cmath.phase((far - centres.pivot) / (near - centres.pivot)))
-        what = said("The swing is {angle}", angle=f"{abs(swing):.4g}°")
+        what = said("The swing is {angle}", angle=f"{abs(math.degrees(centres.swing)):.4g}°")
     if alpha > 1e-6:
         ratio = (180 + alpha) / (180 - alpha)
         begin, turn = cmath.phase(near - start), cmath.phase((far - start) / (near - start))

@@ -398,19 +398,6 @@ class Generated:
         return Figures(self.error / abs(self.task.function.span), size, size, self.transmission_angle)
 
 
-class Designs(NamedTuple):
-    """Linkages of one kind (k, p), their closures (k,), and the ranges of both scales (k,)."""
-
-    rows: Real
-    closure: Real
-    input_range: Real
-    output_range: Real
-
-    def take(self, chosen: Any) -> Designs:
-        """Return the chosen designs."""
-        return Designs(*(part[chosen] for part in self))
-
-
 def _lengths(kind: LinkageKind, rows: Real) -> Real:
     """Return the lengths of the links (k, m), a four-bar's ground first."""
     links = rows[:, : len(kind.links)]
@@ -569,7 +556,7 @@ def answers(task: FunctionTask, count: int = COUNT, *, exact: bool = False) -> t
     """
     linkages: list[Generated] = []
     for design in _candidates(task, count):
-        one = checked(task, design)
+        one = design.checked()
         if one is not None and (exact or all(differ(one.figures, other.figures) for other in linkages)):
             linkages.append(one)
         if len(linkages) == count:
@@ -611,8 +598,9 @@ def _no_linkage_of_pairs(task: FunctionTask) -> str:
 
 
 class _Design(NamedTuple):
-    """One linkage: its row, its closure, and the ranges of both scales."""
+    """One linkage for a task: its row, its closure, and the ranges of both scales."""
 
+    task: FunctionTask
     row: Real
     closure: float
     input_range: float
@@ -623,6 +611,187 @@ class _Design(NamedTuple):
     left: tuple[int, ...] = ()
     """The columns of the parameters by which it could not be levelled yet."""
 
+    def merit(self) -> float:
+        """Return what `_merits` does for it."""
+        ranges = self.input_range, self.output_range
+        return float(_merits(self.task, self.row[None], np.array([self.closure]), ranges)[0])
+
+    def errors(self, x: Real) -> Real:
+        """Return the structural errors at x."""
+        ranges = self.input_range, self.output_range
+        return np.asarray(_generated(self.task, self.row[None], np.array([self.closure]), ranges, x)[0][0])
+
+    def levelled(self) -> _Design:
+        """Return the linkage near by with the smallest largest error, or the same one where none is found.
+
+        As many of its numbers are changed as it has precision points, or, if that is not prescribed, all that
+        are not given.
+        """
+        task = self.task
+        starts = [
+            column for column, start in ((4, task.output_start), (3, task.input_start)) if start is None
+        ]
+        few = starts[: self.points - FEWEST_POINTS]
+        choices = [
+            [0, 1, 2, *sorted(free)] for free in ([few, starts] if task.fewer and few != starts else [few])
+        ]
+        return min((self._exchanged(columns) for columns in choices), key=_Design.merit)
+
+    def again(self) -> _Design:
+        """Return a linkage whose exchange ended early, restarted from the least sum of squared errors."""
+        if not self.left:
+            return self
+        columns = list(self.left)
+        other = self._smoothed(columns)._exchanged(columns)
+        return min((self, other), key=_Design.merit)
+
+    def _exchanged(self, columns: list[int]) -> _Design:
+        """Return a linkage with its largest error made least by some of its numbers.
+
+        Remez's exchange: with n numbers to change, Newton's steps make the errors at n + 1 places equal and
+        alternating; then the places are moved to the new extremes of the error.
+        """
+        design, x = self, np.linspace(self.task.function.first, self.task.function.last, _PLACES)
+        places = design._alternating(x, len(columns) + 1)
+        if places is None:
+            design = design._smoothed(columns)
+            places = design._alternating(x, len(columns) + 1)
+        design = design._replace(left=tuple(columns))
+        worst = np.abs(design.errors(x)).max()
+        for _ in range(_EXCHANGES):
+            if places is None:
+                break
+            error = design.errors(places)
+            if np.ptp(np.abs(error)) <= _LEVEL * np.abs(error).max():
+                return design._replace(left=())
+            signs = np.where(np.arange(len(places)) % 2 == 0, 1.0, -1.0)
+            step = design._solved_for(places, error, columns, -signs[:, None])
+            if step is None:
+                break
+            for share in _SHARES:
+                tried = design._replace(row=design.row + share * step)
+                if not np.abs(tried.errors(x)).max() < worst:
+                    continue
+                after = tried._alternating(x, len(columns) + 1)
+                if after is not None and (less := np.abs(tried.errors(after)).max()) < worst:
+                    design, places, worst = tried, after, less
+                    break
+            else:
+                break
+        return design
+
+    def _alternating(self, x: Real, count: int) -> Real | None:
+        """Return `count` extremes of the error with alternating signs; None if there are fewer."""
+        places = _extremes(self.errors, x)
+        error = self.errors(places)
+        peaks: list[int] = []
+        for n in np.flatnonzero(np.isfinite(error)):
+            if peaks and error[peaks[-1]] * error[n] > 0:
+                peaks[-1] = max(peaks[-1], int(n), key=lambda one: abs(error[one]))
+            else:
+                peaks.append(int(n))
+        while len(peaks) > count:
+            # neighbours are removed in pairs, so that signs still alternate, except a last single one
+            heights = np.abs(error[peaks])
+            pairs = np.maximum(heights[1:], heights[:-1])
+            if len(peaks) == count + 1 or min(heights[0], heights[-1]) < pairs.min():
+                peaks.pop(0 if heights[0] < heights[-1] else -1)
+            else:
+                least = int(pairs.argmin())
+                del peaks[least : least + 2]
+        return places[peaks] if len(peaks) == count else None
+
+    def _solved_for(self, places: Real, error: Real, columns: list[int], more: Real) -> Real | None:
+        """Return the least-squares step of the row that removes errors; `more` unknowns have columns."""
+        function = self.task.function
+        unit = function.span / self.output_range
+        reached = error / unit + function.y_share(places) * self.output_range
+        slopes = self.task.kind.slopes(self.row, function.x_share(places) * self.input_range, reached)
+        matrix = np.column_stack([slopes[:, columns] * unit, more])
+        if not np.isfinite(matrix).all() or not np.isfinite(error).all():
+            return None
+        step = np.zeros(len(self.row))
+        step[columns] = np.linalg.lstsq(matrix, -error, rcond=1e-13)[0][: len(columns)]
+        return step
+
+    def _smoothed(self, columns: list[int]) -> _Design:
+        """Return a linkage with a smaller sum of squared errors, by Gauss-Newton steps."""
+        design, x = self, self.task.function.chebyshev(_SEEN)
+        error = design.errors(x)
+        for _ in range(_EXCHANGES):
+            step = design._solved_for(x, error, columns, np.empty((len(x), 0)))
+            if step is None:
+                break
+            for share in _SHARES:
+                tried = design._replace(row=design.row + share * step)
+                after = tried.errors(x)
+                if (after**2).sum() < 0.999 * (error**2).sum():
+                    design, error = tried, after
+                    break
+            else:
+                break
+        return design
+
+    def checked(self) -> Generated | None:
+        """Return the linkage, its lengths rounded, as the solver runs it; None where it misses the range."""
+        task = self.task
+        kind, function, length = task.kind, task.function, task.length
+        row = self.row.copy()
+        row[:3] = np.round(row[:3] * length, _DIGITS) / length
+        whole = (kind.standard(row[None])[0] * length).tolist()
+        start, wide = _in_turn(float(row[3]) % math.tau, task.input_start), self.input_range
+        document = {
+            "title": f"{kind.name.capitalize()} for {function.words}",
+            "source": task.source,
+            "length_unit": task.unit,
+            "drive": {
+                "joint": "A",
+                "speed": "20 rpm" if wide > 0 else "-20 rpm",
+                "start": f"{math.degrees(start)!r} deg",
+            },
+            **kind.document(dict(zip(kind.parameters, whole, strict=True)), self.closure, traced=False),
+            "trace": {"joints": []},
+        }
+        scale = task.scales[1]
+        first, high = float(row[4]) * scale, self.output_range * scale
+
+        def errors(x: Real) -> Real:
+            """Return the structural errors as the solver has them."""
+            return _solved_errors(scene, task, (start, wide, first, high), x)
+
+        try:
+            scene = scene_from(document, name=task.name, where=task.name)
+            x = np.linspace(function.first, function.last, _FINE)
+            sampled = errors(x)
+            if not np.isfinite(sampled).all():
+                return None
+            extremes = _extremes(errors, x) if function.pairs is None else function.pairs
+            worst = errors(extremes)
+            if kind.turning:
+                seen = float(scene.solve(angle=start, derivatives=0).angle[kind.output])
+                first = _in_turn(first, seen if task.output_start is None else task.output_start)
+            points = sign_changes(errors, x, _CLOSELY) if task.level else function.precision(self.points)
+            stated = {"function": _stated(task, points, (start, wide, first, high))}
+            scene = scene_from({**document, **stated}, name=task.name, where=task.name)
+        except (AssemblyError, SceneError):
+            return None
+        ends = min(start, start + wide), max(start, start + wide)
+        return Generated(
+            scene=scene,
+            parameters=({"ground": length} if kind.turning else {})
+            | dict(zip(kind.links, map(float, row * length), strict=False)),
+            error=float(np.abs(worst).max()),
+            extremes=tuple(zip(extremes.tolist(), worst.tolist(), strict=True)),
+            points=points,
+            input_start=start,
+            input_range=wide,
+            output_start=first,
+            output_range=high,
+            transmission_angle=least_along(scene, "angle", ends, (kind.in_line, math.pi)),
+            chebyshev=self.chebyshev if task.level else float(np.abs(worst).max()),
+            task=task,
+        )
+
 
 def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
     """Yield linkages through precision points, the best first, and the better of them levelled."""
@@ -630,20 +799,20 @@ def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
     designs = [
         design for points in few for ranges in _ranges(task) for design in _through(task, ranges, points)
     ]
-    best = sorted(((_merit(task, design), n) for n, design in enumerate(designs)))[: count + _MORE]
+    best = sorted(((design.merit(), n) for n, design in enumerate(designs)))[: count + _MORE]
     chosen = [designs[n] for merit, n in best if math.isfinite(merit)]
     x = np.linspace(task.function.first, task.function.last, _PLACES)
-    chosen = [one._replace(chebyshev=float(np.abs(_errors(task, one, x)).max())) for one in chosen]
+    chosen = [one._replace(chebyshev=float(np.abs(one.errors(x)).max())) for one in chosen]
     if task.level:
-        chosen = _different(task, [_levelled(task, design) for design in chosen])
-        chosen = _different(task, [*(_again(task, one) for one in chosen[:count]), *chosen[count:]])
+        chosen = _different(task, [design.levelled() for design in chosen])
+        chosen = _different(task, [*(one.again() for one in chosen[:count]), *chosen[count:]])
     yield from _different(task, chosen)
 
 
 def _different(task: FunctionTask, designs: list[_Design]) -> list[_Design]:
     """Return linkages, the best first, each different from all earlier ones."""
     different: list[tuple[_Design, Real]] = []
-    for one in sorted(designs, key=lambda design: _merit(task, design)):
+    for one in sorted(designs, key=_Design.merit):
         lengths = _lengths(task.kind, one.row[None])[0]
         if not any(
             np.abs(lengths - others).max() <= _ALIKE * max(lengths.max(), others.max())
@@ -679,7 +848,7 @@ def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> li
     closures = task.kind.closures(rows, inputs, outputs)
     rows, closures = (part[(closures == closures[:, :1]).all(axis=1)] for part in (rows, closures))
     designs = [
-        _Design(row, float(closure), *ranges, points)
+        _Design(task, row, float(closure), *ranges, points)
         for row, (closure, *_) in zip(rows, closures, strict=True)
     ]
     merits = _merits(task, rows, closures[:, 0], ranges)
@@ -783,97 +952,6 @@ def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, 
     return np.where(np.isfinite(merits), merits, np.inf)
 
 
-def _merit(task: FunctionTask, design: _Design) -> float:
-    ranges = design.input_range, design.output_range
-    return float(_merits(task, design.row[None], np.array([design.closure]), ranges)[0])
-
-
-def _levelled(task: FunctionTask, design: _Design) -> _Design:
-    """Return the linkage near by with the smallest largest error, or the same one where none is found.
-
-    As many of its numbers are changed as it has precision points, or, if that is not prescribed, all that
-    are not given.
-    """
-    starts = [column for column, start in ((4, task.output_start), (3, task.input_start)) if start is None]
-    few = starts[: design.points - FEWEST_POINTS]
-    choices = [
-        [0, 1, 2, *sorted(free)] for free in ([few, starts] if task.fewer and few != starts else [few])
-    ]
-    return min((_exchanged(task, design, columns) for columns in choices), key=lambda one: _merit(task, one))
-
-
-def _again(task: FunctionTask, design: _Design) -> _Design:
-    """Return a linkage whose exchange ended early, restarted from the least sum of squared errors."""
-    if not design.left:
-        return design
-    columns = list(design.left)
-    other = _exchanged(task, _smoothed(task, design, columns), columns)
-    return min((design, other), key=lambda one: _merit(task, one))
-
-
-def _exchanged(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
-    """Return a linkage with its largest error made least by some of its numbers.
-
-    Remez's exchange: with n numbers to change, Newton's steps make the errors at n + 1 places equal and
-    alternating; then the places are moved to the new extremes of the error.
-    """
-    x = np.linspace(task.function.first, task.function.last, _PLACES)
-    places = _alternating(task, design, x, len(columns) + 1)
-    if places is None:
-        design = _smoothed(task, design, columns)
-        places = _alternating(task, design, x, len(columns) + 1)
-    design = design._replace(left=tuple(columns))
-    worst = np.abs(_errors(task, design, x)).max()
-    for _ in range(_EXCHANGES):
-        if places is None:
-            break
-        error = _errors(task, design, places)
-        if np.ptp(np.abs(error)) <= _LEVEL * np.abs(error).max():
-            return design._replace(left=())
-        step = _step(task, design, places, error, columns)
-        if step is None:
-            break
-        for share in _SHARES:
-            tried = design._replace(row=design.row + share * step)
-            if not np.abs(_errors(task, tried, x)).max() < worst:
-                continue
-            after = _alternating(task, tried, x, len(columns) + 1)
-            if after is not None and (less := np.abs(_errors(task, tried, after)).max()) < worst:
-                design, places, worst = tried, after, less
-                break
-        else:
-            break
-    return design
-
-
-def _errors(task: FunctionTask, design: _Design, x: Real) -> Real:
-    """Return a linkage's structural errors at x."""
-    ranges = design.input_range, design.output_range
-    return np.asarray(_generated(task, design.row[None], np.array([design.closure]), ranges, x)[0][0])
-
-
-def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Real | None:
-    """Return `count` extremes of the error with alternating signs; None if there are fewer."""
-    places = _extremes(lambda at: _errors(task, design, at), x)
-    error = _errors(task, design, places)
-    peaks: list[int] = []
-    for n in np.flatnonzero(np.isfinite(error)):
-        if peaks and error[peaks[-1]] * error[n] > 0:
-            peaks[-1] = max(peaks[-1], int(n), key=lambda one: abs(error[one]))
-        else:
-            peaks.append(int(n))
-    while len(peaks) > count:
-        # neighbours are removed in pairs, so that signs still alternate, except a last single one
-        heights = np.abs(error[peaks])
-        pairs = np.maximum(heights[1:], heights[:-1])
-        if len(peaks) == count + 1 or min(heights[0], heights[-1]) < pairs.min():
-            peaks.pop(0 if heights[0] < heights[-1] else -1)
-        else:
-            least = int(pairs.argmin())
-            del peaks[least : least + 2]
-    return places[peaks] if len(peaks) == count else None
-
-
 def _extremes(errors: Callable[[Real], Real], x: Real) -> Real:
     """Return the ends and the extremes of the errors, refined between samples by parabolas, twice."""
     values = errors(x)
@@ -888,107 +966,6 @@ def _extremes(errors: Callable[[Real], Real], x: Real) -> Real:
         places = np.clip(places + wide * np.clip(shift, -1, 1), x[0] + wide / 100, x[-1] - wide / 100)
         wide /= 30
     return np.concatenate([x[:1], places, x[-1:]])
-
-
-def _step(task: FunctionTask, design: _Design, places: Real, error: Real, columns: list[int]) -> Real | None:
-    """Return Newton's step of the row towards errors that are equal and alternating."""
-    signs = np.where(np.arange(len(places)) % 2 == 0, 1.0, -1.0)
-    return _solved_for(task, design, places, error, columns, -signs[:, None])
-
-
-def _solved_for(
-    task: FunctionTask, design: _Design, places: Real, error: Real, columns: list[int], more: Real
-) -> Real | None:
-    """Return the least-squares step of a row that removes errors, with `more` unknowns' columns (n, m)."""
-    function = task.function
-    unit = function.span / design.output_range
-    reached = error / unit + function.y_share(places) * design.output_range
-    slopes = task.kind.slopes(design.row, function.x_share(places) * design.input_range, reached)
-    matrix = np.column_stack([slopes[:, columns] * unit, more])
-    if not np.isfinite(matrix).all() or not np.isfinite(error).all():
-        return None
-    step = np.zeros(len(design.row))
-    step[columns] = np.linalg.lstsq(matrix, -error, rcond=1e-13)[0][: len(columns)]
-    return step
-
-
-def _smoothed(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
-    """Return a linkage with a smaller sum of squared errors, by Gauss-Newton steps."""
-    x = task.function.chebyshev(_SEEN)
-    error = _errors(task, design, x)
-    for _ in range(_EXCHANGES):
-        step = _solved_for(task, design, x, error, columns, np.empty((len(x), 0)))
-        if step is None:
-            break
-        for share in _SHARES:
-            tried = design._replace(row=design.row + share * step)
-            after = _errors(task, tried, x)
-            if (after**2).sum() < 0.999 * (error**2).sum():
-                design, error = tried, after
-                break
-        else:
-            break
-    return design
-
-
-def checked(task: FunctionTask, design: _Design) -> Generated | None:
-    """Return a linkage with rounded lengths as the solver runs it; None where it cannot cover the range."""
-    kind, function, length = task.kind, task.function, task.length
-    row = design.row.copy()
-    row[:3] = np.round(row[:3] * length, _DIGITS) / length
-    whole = (kind.standard(row[None])[0] * length).tolist()
-    start, wide = _in_turn(float(row[3]) % math.tau, task.input_start), design.input_range
-    document = {
-        "title": f"{kind.name.capitalize()} for {function.words}",
-        "source": task.source,
-        "length_unit": task.unit,
-        "drive": {
-            "joint": "A",
-            "speed": "20 rpm" if wide > 0 else "-20 rpm",
-            "start": f"{math.degrees(start)!r} deg",
-        },
-        **kind.document(dict(zip(kind.parameters, whole, strict=True)), design.closure, traced=False),
-        "trace": {"joints": []},
-    }
-    scale = task.scales[1]
-    first, high = float(row[4]) * scale, design.output_range * scale
-
-    def errors(x: Real) -> Real:
-        """Return the structural errors as the solver has them."""
-        return _solved_errors(scene, task, (start, wide, first, high), x)
-
-    try:
-        scene = scene_from(document, name=task.name, where=task.name)
-        x = np.linspace(function.first, function.last, _FINE)
-        sampled = errors(x)
-        if not np.isfinite(sampled).all():
-            return None
-        extremes = _extremes(errors, x) if function.pairs is None else function.pairs
-        worst = errors(extremes)
-        if kind.turning:
-            seen = float(scene.solve(angle=start, derivatives=0).angle[kind.output])
-            first = _in_turn(first, seen if task.output_start is None else task.output_start)
-        points = sign_changes(errors, x, _CLOSELY) if task.level else function.precision(design.points)
-        stated = {"function": _stated(task, points, (start, wide, first, high))}
-        scene = scene_from({**document, **stated}, name=task.name, where=task.name)
-    except (AssemblyError, SceneError):
-        return None
-    ends = min(start, start + wide), max(start, start + wide)
-    return Generated(
-        scene=scene,
-        parameters=({"ground": length} if kind.turning else {})
-        | dict(zip(kind.links, map(float, row * length), strict=False)),
-        error=float(np.abs(worst).max()),
-        extremes=tuple(zip(extremes.tolist(), worst.tolist(), strict=True)),
-        points=points,
-        input_start=start,
-        input_range=wide,
-        output_start=first,
-        output_range=high,
-        transmission_angle=least_along(scene, "angle", ends, (kind.in_line, math.pi)),
-        chebyshev=design.chebyshev if task.level else float(np.abs(worst).max()),
-        task=task,
-    )
 
 
 def _in_turn(angle: float, other: float | None) -> float:

@@ -464,102 +464,116 @@ def _slides(task: GuideTask) -> _EndChoice:
     return _all_of(slide)
 
 
-class _Pairs(NamedTuple):
-    """Linkages (k,): the crank's circle point and pivot, and the coupler's other end with what holds it.
+class _Linkages:
+    """Linkages (k,) for a task: their joints in the first pose, and their properties in closed form.
 
-    `held` is the other pivot, or the direction of a line.
-    """
-
-    pin: Complex
-    pivot: Complex
-    end: Complex
-    held: Complex
-
-
-def _paired(first: Bars, second: Bars | Slides) -> _Pairs:
-    """Return all pairs of a crank and another end."""
-    one, other = (part.ravel() for part in np.indices((len(first[0]), len(second[0]))))
-    return _Pairs(first.circle[one], first.centre[one], second[0][other], second[1][other])
-
-
-class _Judged(NamedTuple):
-    """The properties of linkages (k,): parameters, least transmission angle, defects, longest link.
-
-    `angles` are the crank's at each pose (k, n), growing or falling in the order of passing; `closures` are
-    +1 or -1 at each pose; `turning` says whether the crank turns fully.
-    """
-
-    rows: Real
-    closures: Real
-    angles: Real
-    transmission: Real
-    defects: NDArray[np.bool_]
-    turning: NDArray[np.bool_]
-    size: Real
-
-
-def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
-    """Return the properties of linkages, in closed form.
+    `pin` is the crank's circle point, `pivot` its pivot, `end` the coupler's other end, and `held` what holds
+    that: the other pivot, or the direction of a line. `angles` are the crank's at each pose (k, n), growing
+    or falling in the order of passing; `closures` are +1 or -1 at each pose; `turning` says whether the crank
+    turns fully, `defects` (k, 3) which of `DEFECTS` there are, `transmission` the least angle, `size` the
+    longest link.
 
     With τ the crank's angle from the ground line, or from the line's normal, the cosine of the angle at the
     coupler's end is c = p + q·cos τ for both kinds (for the slider-crank its rod against its line's normal).
     The linkage closes while |c| ≤ 1: a crank has a limit near τ = 0, where |p + q| > 1, and near τ = π,
     where |p - q| > 1; with both limits, the ranges on the two sides of the ground line are separate circuits.
     """
-    poses, sliding = task.poses, task.kind is SLIDER_CRANK
-    pins, ends = poses.places(pairs.pin), poses.places(pairs.end)
-    crank, coupler = pins - pairs.pivot[:, None], ends - pins
-    r2, r3 = np.abs(crank).mean(axis=1), np.abs(coupler).mean(axis=1)
-    held = pairs.held
-    with np.errstate(all="ignore"):
-        if sliding:
-            # the first pose is to be closed forward
-            held = np.where((np.conj(held) * coupler[:, 0]).real < 0, -held, held)
-            offset = (np.conj(held)[:, None] * (ends - pairs.pivot[:, None])).imag.mean(axis=1)
-            reference, p, q = -1j * held, -offset / r3, -r2 / r3
-            side = (np.conj(held)[:, None] * coupler).real
-        else:
-            ground = held - pairs.pivot
-            r1, r4 = np.abs(ground), np.abs(ends - held[:, None]).mean(axis=1)
-            reference, q = ground / r1, r1 * r2 / (r3 * r4)
-            p = (r3 * r3 + r4 * r4 - r1 * r1 - r2 * r2) / (2 * r3 * r4)
-            side = (np.conj(held[:, None] - pins) * coupler).imag
-        angle = np.angle(crank / reference[:, None])
-        # a link of no length closes nowhere
-        p, q = (np.where(np.isfinite(part), part, np.nan) for part in (p, q))
-    # where the greatest c is 1 the two closures meet: a change point
-    near, far = (np.abs(place) - 1 for place in (p + q, p - q))
-    changes = (np.abs(near) <= _CLOSED).astype(int) + (np.abs(far) <= _CLOSED)
-    near, far = near <= _CLOSED, far <= _CLOSED
-    turning, parted = near & far, ~near & ~far
-    # an input that cannot pass τ = 0 runs through π
-    angle = np.where((far & ~near)[:, None], angle % math.tau, angle)
-    closures = np.where(side > 0, 1.0, -1.0)
-    upper = np.where(angle > 0, 1.0, -1.0)
-    turned = _passed(angle, turning)
-    other_range = parted[:, None] & (upper != upper[:, :1])
-    other_closure = closures != closures[:, :1]
-    crossed = other_closure.any(axis=1) & (closures * upper != (closures * upper)[:, :1]).any(axis=1)
-    circuit = np.where(
-        turning, np.choose(changes, [other_closure.any(axis=1), False, crossed]), other_range.any(axis=1)
-    )
-    branch = ~turning & (other_closure & ~other_range).any(axis=1)
-    steps = np.diff(turned, axis=1)
-    order = ~circuit & ~branch & ~((steps > 0).all(axis=1) | (steps < 0).all(axis=1))
-    defects = np.column_stack([circuit, branch, order])
-    cosine = np.abs(p[:, None] + q[:, None] * np.cos(angle)).max(axis=1)
-    for place, half in ((p + q, 0.0), (p - q, math.pi)):
-        passed = np.floor((turned[:, 0] - half) / math.tau) != np.floor((turned[:, -1] - half) / math.tau)
-        cosine = np.where(passed & ~defects.any(axis=1), np.maximum(cosine, np.abs(place)), cosine)
-    transmission = angle_of(cosine)
-    with np.errstate(all="ignore"):
-        arm = (poses.origins[0] - pairs.pin) * np.conj(coupler[:, 0]) / np.abs(coupler[:, 0])
-    base = pairs.pivot.real, pairs.pivot.imag, r2, r3, arm.real, arm.imag
-    rest = (np.angle(held), offset) if sliding else (held.real, held.imag, r4)
-    rows = np.stack([*base, *rest], axis=1)
-    size = task.kind.link_lengths(rows).max(axis=1)
-    angles = turned + np.angle(reference)[:, None]
-    return _Judged(rows, closures, angles, transmission, defects, turning, size)
+
+    def __init__(self, task: GuideTask, first: Bars, second: Bars | Slides) -> None:
+        """Take all pairs of a crank and another end."""
+        one, other = (part.ravel() for part in np.indices((len(first[0]), len(second[0]))))
+        self.task = task
+        self.pin, self.pivot = first.circle[one], first.centre[one]
+        self.end, self.held = second[0][other], second[1][other]
+        poses, sliding = task.poses, task.kind is SLIDER_CRANK
+        pins, ends = poses.places(self.pin), poses.places(self.end)
+        crank, coupler = pins - self.pivot[:, None], ends - pins
+        r2, r3 = np.abs(crank).mean(axis=1), np.abs(coupler).mean(axis=1)
+        held = self.held
+        with np.errstate(all="ignore"):
+            if sliding:
+                # the first pose is to be closed forward
+                held = np.where((np.conj(held) * coupler[:, 0]).real < 0, -held, held)
+                offset = (np.conj(held)[:, None] * (ends - self.pivot[:, None])).imag.mean(axis=1)
+                reference, p, q = -1j * held, -offset / r3, -r2 / r3
+                side = (np.conj(held)[:, None] * coupler).real
+            else:
+                ground = held - self.pivot
+                r1, r4 = np.abs(ground), np.abs(ends - held[:, None]).mean(axis=1)
+                reference, q = ground / r1, r1 * r2 / (r3 * r4)
+                p = (r3 * r3 + r4 * r4 - r1 * r1 - r2 * r2) / (2 * r3 * r4)
+                side = (np.conj(held[:, None] - pins) * coupler).imag
+            angle = np.angle(crank / reference[:, None])
+            # a link of no length closes nowhere
+            p, q = (np.where(np.isfinite(part), part, np.nan) for part in (p, q))
+        # where the greatest c is 1 the two closures meet: a change point
+        near, far = (np.abs(place) - 1 for place in (p + q, p - q))
+        changes = (np.abs(near) <= _CLOSED).astype(int) + (np.abs(far) <= _CLOSED)
+        near, far = near <= _CLOSED, far <= _CLOSED
+        turning, parted = near & far, ~near & ~far
+        # an input that cannot pass τ = 0 runs through π
+        angle = np.where((far & ~near)[:, None], angle % math.tau, angle)
+        closures = np.where(side > 0, 1.0, -1.0)
+        upper = np.where(angle > 0, 1.0, -1.0)
+        turned = _passed(angle, turning)
+        other_range = parted[:, None] & (upper != upper[:, :1])
+        other_closure = closures != closures[:, :1]
+        crossed = other_closure.any(axis=1) & (closures * upper != (closures * upper)[:, :1]).any(axis=1)
+        circuit = np.where(
+            turning, np.choose(changes, [other_closure.any(axis=1), False, crossed]), other_range.any(axis=1)
+        )
+        branch = ~turning & (other_closure & ~other_range).any(axis=1)
+        steps = np.diff(turned, axis=1)
+        order = ~circuit & ~branch & ~((steps > 0).all(axis=1) | (steps < 0).all(axis=1))
+        self.defects = np.column_stack([circuit, branch, order])
+        cosine = np.abs(p[:, None] + q[:, None] * np.cos(angle)).max(axis=1)
+        for place, half in ((p + q, 0.0), (p - q, math.pi)):
+            passed = np.floor((turned[:, 0] - half) / math.tau) != np.floor((turned[:, -1] - half) / math.tau)
+            cosine = np.where(passed & ~self.defects.any(axis=1), np.maximum(cosine, np.abs(place)), cosine)
+        self.transmission = angle_of(cosine)
+        with np.errstate(all="ignore"):
+            arm = (poses.origins[0] - self.pin) * np.conj(coupler[:, 0]) / np.abs(coupler[:, 0])
+        base = self.pivot.real, self.pivot.imag, r2, r3, arm.real, arm.imag
+        rest = (np.angle(held), offset) if sliding else (held.real, held.imag, r4)
+        self.rows, self.closures, self.turning = np.stack([*base, *rest], axis=1), closures, turning
+        self.size = task.kind.link_lengths(self.rows).max(axis=1)
+        self.angles = turned + np.angle(reference)[:, None]
+
+    def merit(self, weight: float) -> Real:
+        """Return the costs: of defects first, then of size against the transmission angle by its weight."""
+        task, size = self.task, self.task.poses.size
+        with np.errstate(all="ignore"):
+            sine = np.log(np.sin(self.transmission))
+            merit = np.log(self.size / size) - weight * sine
+            merit += weight * np.maximum(math.log(math.sin(_USUAL_LEAST)) - sine, 0.0)
+            merit -= _TURNING * self.turning
+            limits = task.requirements
+            margins = limits.margins(task.kind, self.rows).min(axis=1)
+            if task.boxes:
+                margins = np.minimum(margins, -self._outside(task.kind.pivots(self.rows)))
+            allowed = (margins >= -1e-9 * size) & (self.transmission >= limits.angle_to_keep("angle"))
+        merit += _DEFECT * self.defects.sum(axis=1)
+        return np.asarray(np.where(allowed & np.isfinite(merit), merit, np.inf))
+
+    def _outside(self, pivots: Complex) -> Real:
+        """Return how far pivots (k, m) that are not given lie outside the box; of two boxes, one in each."""
+        beyond = []
+        for x, y, width, height in self.task.boxes:
+            sides = x - pivots.real, pivots.real - x - width, y - pivots.imag, pivots.imag - y - height
+            beyond.append(np.max(sides, axis=0))
+        off = np.stack(beyond)
+        if len(off) > 1:
+            orders = [np.stack([off[0, :, n], off[1, :, 1 - n]]).max(axis=0) for n in (0, 1)]
+            return np.asarray(np.minimum(*orders))
+        for pivot in self.task.pivots:
+            off = np.where(np.abs(pivots - pivot) <= _ON_CURVE * self.task.poses.size, -np.inf, off)
+        return np.asarray(off[0].max(axis=1))
+
+    @property
+    def bars(self) -> tuple[Complex, Complex]:
+        """Of a single linkage, what a `GuidedLinkage` has as bars."""
+        last = self.end if self.task.kind is SLIDER_CRANK else self.held
+        return np.array([self.pin[0], self.pivot[0]]), np.array([self.end[0], last[0]])
 
 
 def _passed(angle: Real, turning: NDArray[np.bool_]) -> Real:
@@ -577,39 +591,6 @@ def _passed(angle: Real, turning: NDArray[np.bool_]) -> Real:
     return np.asarray(np.where(turning[:, None], turned, angle))
 
 
-def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
-    """Return the costs: of defects first, then of size against the transmission angle times its weight."""
-    with np.errstate(all="ignore"):
-        sine = np.log(np.sin(judged.transmission))
-        merit = np.log(judged.size / task.poses.size) - weight * sine
-        merit += weight * np.maximum(math.log(math.sin(_USUAL_LEAST)) - sine, 0.0)
-        merit -= _TURNING * judged.turning
-        limits = task.requirements
-        margins = limits.margins(task.kind, judged.rows).min(axis=1)
-        if task.boxes:
-            margins = np.minimum(margins, -_outside(task, task.kind.pivots(judged.rows)))
-        allowed = (margins >= -1e-9 * task.poses.size) & (
-            judged.transmission >= limits.angle_to_keep("angle")
-        )
-    merit += _DEFECT * judged.defects.sum(axis=1)
-    return np.asarray(np.where(allowed & np.isfinite(merit), merit, np.inf))
-
-
-def _outside(task: GuideTask, pivots: Complex) -> Real:
-    """Return how far pivots (k, m) that are not given lie outside the box; of two boxes, one in each."""
-    beyond = []
-    for x, y, width, height in task.boxes:
-        sides = x - pivots.real, pivots.real - x - width, y - pivots.imag, pivots.imag - y - height
-        beyond.append(np.max(sides, axis=0))
-    off = np.stack(beyond)
-    if len(off) > 1:
-        orders = [np.stack([off[0, :, n], off[1, :, 1 - n]]).max(axis=0) for n in (0, 1)]
-        return np.asarray(np.minimum(*orders))
-    for pivot in task.pivots:
-        off = np.where(np.abs(pivots - pivot) <= _ON_CURVE * task.poses.size, -np.inf, off)
-    return np.asarray(off[0].max(axis=1))
-
-
 def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) -> tuple[GuidedLinkage, ...]:
     """Return the best different linkages, each as the solver runs it; BadInput where there is none.
 
@@ -622,11 +603,11 @@ def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) ->
     alike = _ALIKE if free else SAME
     linkages: list[GuidedLinkage] = []
     alike_ones: list[GuidedLinkage] = []
-    for pairs in _candidates(task, ends, count, weight):
-        bars = _bars_of(task, pairs)
-        if any(_bars_apart(bars, other.bars, task.poses.size) <= alike for other in [*linkages, *alike_ones]):
+    for made in _candidates(task, ends, count, weight):
+        earlier, size = [*linkages, *alike_ones], task.poses.size
+        if any(_bars_apart(made.bars, other.bars, size) <= alike for other in earlier):
             continue
-        one = checked(task, pairs)
+        one = checked(made)
         if one is not None:
             reads_as_another = free and any(_reads_as(one, other) for other in linkages)
             (alike_ones if reads_as_another else linkages).append(one)
@@ -655,7 +636,7 @@ def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> s
     """Return why there is no answer, with the limits that the smallest linkage would need."""
     limits = [("the box", "a pin in each box")[len(task.boxes) - 1]] if task.boxes else []
     named = ", ".join([*limits, "the longest link"]) + " and the least transmission angle"
-    sizes = [_judged(task, _all_pairs(pair)).size for pair in ends]
+    sizes = [_all_pairs(task, pair).size for pair in ends]
     least = float(np.nanmin([*np.concatenate(sizes), np.inf])) / task.poses.size
     smallest = (
         f"; the longest link is {least:.3g} sizes of the poses at the least" if math.isfinite(least) else ""
@@ -665,9 +646,8 @@ def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> s
     return f"no {task.kind.name} through these {task.poses.count} poses keeps to {named}{more}"
 
 
-def _all_pairs(ends: tuple[_EndChoice, _EndChoice]) -> _Pairs:
-    first, second = ends
-    return _paired(first.make(first.rows), second.make(second.rows))
+def _all_pairs(task: GuideTask, ends: tuple[_EndChoice, _EndChoice]) -> _Linkages:
+    return _Linkages(task, *(choice.make(choice.rows) for choice in ends))
 
 
 def _ends(task: GuideTask) -> list[tuple[_EndChoice, _EndChoice]]:
@@ -681,42 +661,39 @@ def _ends(task: GuideTask) -> list[tuple[_EndChoice, _EndChoice]]:
     return [(held[0], free), (free, held[0])] if held else [(free, free)]
 
 
-class _Seed(NamedTuple):
-    """A linkage that was tried: the choices at both ends, and the parameters of each."""
-
-    ends: tuple[_EndChoice, _EndChoice]
-    rows: tuple[Real, Real]
-    merit: float
+_Seed = tuple[tuple[_EndChoice, _EndChoice], tuple[Real, Real], float]
+"""A linkage that was tried: the choices at both ends, the parameters of each, and its merit."""
 
 
 def _candidates(
     task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]], count: int, weight: float | None
-) -> Iterator[_Pairs]:
+) -> Iterator[_Linkages]:
     """Yield linkages one by one, the best first, with their free parameters improved.
 
     If no weight is given, the first are the best, the smallest and the one with the best angle.
     """
     many, usual = max(count, COUNT) + _MORE, USUAL_WEIGHT if weight is None else weight
     seeds = [seed for pair in ends for seed in _seeds(task, pair, many, usual)]
-    seeds = sorted(seeds, key=lambda seed: seed.merit)[:many]
+    seeds = sorted(seeds, key=lambda seed: seed[2])[:many]
     if any(choice.free for pair in ends for choice in pair):
         kinds = [usual] if weight is not None else [usual, *PREFERENCES.values()]
         seeds = [_followed(task, seed, usual) for seed in seeds] + [
             _followed(task, seed, kind) for kind in kinds[1:] for seed in seeds[:_PREFERRED]
         ]
-        judged = [_judged(task, _made(task, seed)) for seed in seeds]
-        merits = {kind: [float(_merit(task, one, kind)[0]) for one in judged] for kind in kinds}
-        first = [min(range(len(seeds)), key=merits[kind].__getitem__) for kind in kinds if seeds]
-        rest = sorted(range(len(seeds)), key=merits[usual].__getitem__)
-        seeds = [seeds[n] for n in dict.fromkeys([*first, *rest])]
-    yield from (_made(task, seed) for seed in seeds)
+        made = [_made(task, seed) for seed in seeds]
+        merits = {kind: [float(one.merit(kind)[0]) for one in made] for kind in kinds}
+        first = [min(range(len(made)), key=merits[kind].__getitem__) for kind in kinds if made]
+        rest = sorted(range(len(made)), key=merits[usual].__getitem__)
+        yield from (made[n] for n in dict.fromkeys([*first, *rest]))
+    else:
+        yield from (_made(task, seed) for seed in seeds)
 
 
 def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, weight: float) -> list[_Seed]:
     """Return the best combinations of sampled ends, with joints well apart from each other's."""
     first, second = ends
-    pairs = _all_pairs(ends)
-    merit = _merit(task, _judged(task, pairs), weight)
+    pairs = _all_pairs(task, ends)
+    merit = pairs.merit(weight)
     order = np.argsort(merit, kind="stable")[: int(np.isfinite(merit).sum())]
     places = np.stack([pairs.pin, pairs.pivot, pairs.end, pairs.held], axis=1)
     least = _APART * task.poses.size if first.free or second.free else 0.0
@@ -724,7 +701,7 @@ def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, wei
     for number in _apart_ones(places, order, least, count):
         one, other = divmod(number, len(second.rows))
         rows = first.rows[one : one + 1], second.rows[other : other + 1]
-        seeds.append(_Seed(ends, rows, float(merit[number])))
+        seeds.append((ends, rows, float(merit[number])))
     return seeds
 
 
@@ -741,31 +718,30 @@ def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> li
 
 def _followed(task: GuideTask, seed: _Seed, weight: float) -> _Seed:
     """Return a linkage improved by moving its free parameters in ever shorter steps."""
-    first, second = seed.ends
-    rows, scale = seed.rows, 1.0
-    merit = float(_merit(task, _judged(task, _made(task, seed)), weight)[0])
+    ends, rows, _ = seed
+    merit, scale = float(_made(task, seed).merit(weight)[0]), 1.0
     for _ in range(_ROUNDS):
-        tried = tuple(choice.around(row, scale) for choice, row in zip(seed.ends, rows, strict=True))
-        pairs = _paired(first.make(tried[0]), second.make(tried[1]))
-        merits = _merit(task, _judged(task, pairs), weight)
+        tried = tuple(choice.around(row, scale) for choice, row in zip(ends, rows, strict=True))
+        made = (choice.make(some) for choice, some in zip(ends, tried, strict=True))
+        merits = _Linkages(task, *made).merit(weight)
         best = int(merits.argmin())
         if merits[best] < merit:
             one, other = divmod(best, len(tried[1]))
             rows, merit = (tried[0][one : one + 1], tried[1][other : other + 1]), float(merits[best])
         else:
             scale *= _NARROWER
-    return _Seed(seed.ends, rows, merit)
+    return ends, rows, merit
 
 
-def _made(task: GuideTask, seed: _Seed) -> _Pairs:
+def _made(task: GuideTask, seed: _Seed) -> _Linkages:
     """Return a linkage whose bars have one length in all poses, and its slider one line, to all digits."""
-    crank, end = (choice.make(row) for choice, row in zip(seed.ends, seed.rows, strict=True))
-    first, second = seed.ends
+    (first, second), rows, _ = seed
+    crank, end = first.make(rows[0]), second.make(rows[1])
     if isinstance(end, Bars):
         end = polished(task.poses, end, held=second.held)
     else:
         end = straightened(task.poses, complex(end.point[0]))
-    return _paired(polished(task.poses, crank, held=first.held), end)
+    return _Linkages(task, polished(task.poses, crank, held=first.held), end)
 
 
 def followed(
@@ -790,7 +766,7 @@ def followed(
     ends = [_nearest_slide(poses, slides)] if sliding else bars[1:]
     if bars[0] is None or ends[0] is None:
         return None
-    return checked(task, _paired(bars[0], ends[0]))
+    return checked(_Linkages(task, bars[0], ends[0]))
 
 
 def _held_by(pivots: Sequence[complex], bars: list[tuple[complex, complex]]) -> list[tuple[complex, complex]]:
@@ -871,12 +847,12 @@ def _nearest_slide(poses: Poses, joint: complex) -> Slides | None:
     return slides_through(poses, np.array([place]))
 
 
-def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
+def checked(made: _Linkages) -> GuidedLinkage | None:
     """Return a linkage with rounded parameters as the solver runs it; None where it does not assemble."""
-    judged, kind = _judged(task, pairs), task.kind
-    row = _written(task, judged.rows[0])
-    closures, angles = judged.closures[0], judged.angles[0]
-    lean = cmath.phase(pairs.end[0] - pairs.pin[0]) - float(task.poses.angles[0])
+    task, kind = made.task, made.task.kind
+    row = _written(task, made.rows[0])
+    closures, angles = made.closures[0], made.angles[0]
+    lean = cmath.phase(made.end[0] - made.pin[0]) - float(task.poses.angles[0])
     try:
         scene = _scene(task, row, closures[0], angles)
         phases, off = _met(task, scene, angles, lean)
@@ -894,11 +870,11 @@ def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
         angles=angles,
         phases=phases,
         lean=lean,
-        bars=_bars_of(task, pairs),
+        bars=made.bars,
         error=float(off.max()),
         defects=defects,
-        transmission_angle=float(judged.transmission[0]),
-        size=float(judged.size[0]),
+        transmission_angle=float(made.transmission[0]),
+        size=float(made.size[0]),
         task=task,
     )
 
@@ -993,11 +969,6 @@ def _defects(scene: Scene, phases: Real, met: NDArray[np.bool_]) -> tuple[str, .
     if not defects and not ((np.diff(forth) > 0).all() or (np.diff(back) < 0).all()):
         defects.append("order")
     return tuple(defects)
-
-
-def _bars_of(task: GuideTask, pairs: _Pairs) -> tuple[Complex, Complex]:
-    end = pairs.end if task.kind is SLIDER_CRANK else pairs.held
-    return np.array([pairs.pin[0], pairs.pivot[0]]), np.array([pairs.end[0], end[0]])
 
 
 def apart(one: GuidedLinkage, other: GuidedLinkage) -> float:

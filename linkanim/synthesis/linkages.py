@@ -45,12 +45,8 @@ class TracedPoints(NamedTuple):
     slopes: Complex
 
 
-class _Closed(NamedTuple):
-    """The coupler's direction, the normal N of B's path, and N·dB by each ground parameter: (B, n)."""
-
-    direction: Complex
-    normal: Complex
-    grounds: tuple[Complex | Real, ...]
+_Closed = tuple[Complex, Complex, tuple[Complex | Real, ...]]
+"""The coupler's direction, the normal N of B's path, and N·dB by each ground parameter: (B, n)."""
 
 
 class LinkageKind(ABC):
@@ -174,12 +170,12 @@ class LinkageKind(ABC):
     def points(self, rows: Real, closure: Real, angles: Real) -> Complex:
         """Return the coupler points (B, n) at crank angles (B, n), NaN where there are none."""
         pin, _ = _pins(rows, angles)
-        return pin + _arm(rows) * self.close(rows, closure[:, None], pin).direction
+        return pin + _arm(rows) * self.close(rows, closure[:, None], pin)[0]
 
     def joints(self, rows: Real, closure: Real, angles: Real) -> Complex:
         """Return the fixed pins, then A, B and P at crank angles (B, n), side by side (B, m)."""
         pin, _ = _pins(rows, angles)
-        direction = self.close(rows, closure[:, None], pin).direction
+        direction = self.close(rows, closure[:, None], pin)[0]
         return np.concatenate(
             [self.pivots(rows), pin, pin + rows[:, 3:4] * direction, pin + _arm(rows) * direction], axis=1
         )
@@ -261,7 +257,7 @@ class FourBarKind(LinkageKind):
             root = closure * np.sqrt(((a + b) ** 2 - square) * (square - (a - b) ** 2))
             direction = diagonal * (square + (a - b) * (a + b) + 1j * root) / (2 * square * a)
         normal = a * direction - diagonal
-        return _Closed(direction, normal, (normal.real, normal.imag, b))
+        return direction, normal, (normal.real, normal.imag, b)
 
     def link_lengths(self, rows: Real) -> Real:
         """Return crank, coupler, arm from A, rocker, ground, and arm from B."""
@@ -360,7 +356,7 @@ class SliderCrankKind(LinkageKind):
             root = closure * np.sqrt((rod - rise) * (rod + rise))
         direction = line * (root + 1j * rise) / rod
         normal = np.broadcast_to(1j * line, pin.shape)
-        return _Closed(direction, normal, (place.real + root, np.ones_like(root)))
+        return direction, normal, (place.real + root, np.ones_like(root))
 
     def link_lengths(self, rows: Real) -> Real:
         """Return crank, rod, and arms from A and B."""
@@ -475,7 +471,7 @@ class Linkage4(NamedTuple):
         """Return the joints of a row of closure +1 at a crank angle."""
         pin, pivot = FOUR_BAR.pivots(row[None])[0]
         crank = pin + row[2] * np.exp(1j * angle)
-        direction = FOUR_BAR.close(row[None], np.ones((1, 1)), np.array([[crank]])).direction[0, 0]
+        direction = FOUR_BAR.close(row[None], np.ones((1, 1)), np.array([[crank]]))[0][0, 0]
         joints = pin, crank, crank + row[3] * direction, pivot, crank + complex(*row[4:6]) * direction
         return cls(*map(complex, joints))
 

@@ -12,7 +12,6 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
@@ -33,18 +32,12 @@ def unwatched() -> None:
     """Do nothing at a step."""
 
 
-class _Stage(NamedTuple):
-    """How many candidates are refined, over how many points, in how many steps."""
-
-    candidates: int
-    points: int
-    steps: int
-
-
-_FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
-_STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
-_WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
-_FOREIGN_STAGES = (_Stage(600, 32, 8), _Stage(80, 64, 40), _Stage(12, 200, 150))
+_Stage = tuple[int, int, int]
+"""How many candidates are refined, over how many points, in how many steps."""
+_FEW_STAGES = ((300, FEW, 25), (80, FEW, 60), (12, FEW, 200))
+_STAGES = ((80, 32, 12), (24, 64, 40), (8, 200, 150))
+_WIDER_STAGES = ((2000, 32, 8), (300, 64, 40), (40, 64, 200))
+_FOREIGN_STAGES = ((600, 32, 8), (80, 64, 40), (12, 200, 150))
 MATCHED = 128
 """The largest number of a curve's points that are compared with the atlas."""
 _REFIT_STEPS = 30
@@ -100,7 +93,7 @@ def none_fits(task: PathTask) -> str:
 def glimpsed(task: PathTask) -> Fit | None:
     """Return the atlas's best curve without refinement: in a tenth of a second, once the atlas is made."""
     chosen = task.thinned(MATCHED)
-    start = started(task, chosen, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
+    start = started(task, chosen, _STAGES[0][0], _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
     traced = task.kind.points(start.rows, start.closure, start.angles)
     off = np.abs(traced - task.normal.points[chosen]).max(axis=1)
     return next(verified(task, start.take(np.argsort(off, kind="stable")), chosen), None)
@@ -145,15 +138,15 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
 def _refined_through(task: PathTask, stages: tuple[_Stage, ...], pulse: Pulse) -> tuple[Candidates, Indices]:
     """Return the best candidates of the last stage, the best first, at size 1, and that stage's points."""
     chosen = task.thinned(MATCHED)
-    now = started(task, chosen, stages[0].candidates)
+    now = started(task, chosen, stages[0][0])
     cost = np.zeros(len(now.rows))
-    for number, stage in enumerate(stages):
+    for number, (candidates, points, steps) in enumerate(stages):
         pulse()
-        now = now.take(_by_merit(cost)[: stage.candidates])
-        before, chosen = chosen, task.thinned(stage.points)
+        now = now.take(_by_merit(cost)[:candidates])
+        before, chosen = chosen, task.thinned(points)
         now = spread(task, now, before, chosen)
         problem = task.problem(chosen)
-        now, cost = refined(problem, now, stage.steps, guarded=stage is stages[-1])
+        now, cost = refined(problem, now, steps, guarded=number == len(stages) - 1)
         if number:
             cost = merit(problem, now)
     return now.take(_by_merit(cost)[: int(np.isfinite(cost).sum())]), chosen
@@ -170,7 +163,7 @@ def refitted(task: PathTask, fit: Fit) -> Fit | None:
     The task has as many points as the answer. None where no answer is found.
     """
     start = Candidates(fit.row[None], np.array([fit.closure_sign]), fit.angles[None], np.array([fit.sense]))
-    chosen = task.thinned(_STAGES[-1].points)
+    chosen = task.thinned(_STAGES[-1][1])
     now = task.normalised(start)
     now = spread(task, now, np.arange(len(task.normal.points)), chosen)
     now, _ = refined(task.problem(chosen), now, _REFIT_STEPS)
