@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cached_property, lru_cache
 from itertools import product
 from math import tau
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from linkanim.picture.centres import CentrePairs
 from linkanim.picture.dead_centres import DeadCentres, dead_centres_of
 from linkanim.picture.dimensions import Symbols, symbols
 from linkanim.picture.figure import DrawSetting, Figure, figure
-from linkanim.picture.fit import Extent, around, each, fitted, nearest, of_linkage, together
+from linkanim.picture.fit import NOTHING, Extent, around, each, fitted, nearest, of_linkage, together
 from linkanim.picture.hud import (
     Legendary,
     WidestRow,
@@ -43,14 +42,14 @@ from linkanim.picture.motion_marks import Arrows, Sliding, Turning, arrows_for, 
 from linkanim.picture.names import Names, names_of
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.text import Type, letters, subscripted
-from linkanim.picture.theme import Theme, theme_of
+from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect, View
 from linkanim.scenes.editing import ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.words import cached_as_said, kept_as_said, said
 
-_KEEPS = 0.75
-"""The share of its size without words that the linkage keeps: for more words there is no room."""
+_KEEPS, _KEEPS_LISTED = 0.75, 0.4
+"""The share of its size without words that the linkage keeps: beside more words; beside a list alone."""
 _BETTER = 1.1
 """The factor by which the linkage must be larger with its charts beside it for them to stand there."""
 _WIDE_ENOUGH = 420
@@ -61,74 +60,15 @@ _ROOM_FOR_LINES = (5.5, 3.8, 2.2, 0.8)
 """The room for dimension lines on each side of a still at first, in heights of their text: less and less."""
 _LEAST = 0.57
 """The least share of a still's width or height that the linkage takes."""
-_ROUNDS, _SAME, _ALIKE = 5, 0.005, 0.02
-"""How often names are chosen and the linkage is fitted at the most: until its size hardly changes.
+_ROUNDS, _SAME, _ALIKE = 5, 0.005, 0.05
+"""How often names of a still are chosen and the linkage is fitted at the most: until its size hardly changes.
 
-It may change more in a moving picture, in which names are not as close to other things.
+In a moving picture, in which names are not as close to other things, once is enough where it has grown.
 """
 _SAMPLES = 60
 """The most moments at which arrows are looked at."""
 _LOOKED_AT = 24
 """The poses of one turn of the input whose instant centres a moving picture includes."""
-
-
-class Wanted(NamedTuple):
-    """What a picture is to hold, as far as its composition depends on it.
-
-    `moment` is the phase of a still, `also` are further places in the scene's unit that the view includes.
-    """
-
-    size: tuple[int, int]
-    charts: int = 0
-    polygons: int = 0
-    """1 for both polygons, 2 for a large one."""
-    key_lines: int = 0
-    hud: bool = True
-    caption: bool = False
-    docked: Docked = Docked()
-    moment: float | None = None
-    also: tuple[complex, ...] = ()
-    names: int = 0
-    joints_named: bool = False
-    centres: int = 0
-    vectors: frozenset[str] = frozenset()
-    traced: bool = True
-    dead_centres: bool = False
-    type_scale: float = 1.0
-
-    @property
-    def worded(self) -> bool:
-        """Whether the title and the readout are shown; an open list takes their place."""
-        return self.hud and not self.docked.listed
-
-
-def wanted(
-    scene: Scene,
-    size: tuple[int, int],
-    look: Look,
-    docked: Docked,
-    moment: float | None = None,
-    also: tuple[complex, ...] = (),
-) -> Wanted:
-    """Return what a picture of a scene in a look has to hold."""
-    return Wanted(
-        size,
-        len(chart_tokens(scene, look.chart)),
-        look.polygons_shown,
-        key_lines(look),
-        look.hud,
-        look.caption and not docked.listed,
-        docked,
-        moment,
-        also,
-        look.names,
-        look.joints_named,
-        look.centres,
-        look.vectors,
-        look.trace or look.ink,
-        look.dead_centres,
-        look.type_scale,
-    )
 
 
 @frozen(eq=False)
@@ -159,7 +99,6 @@ class Composition:
     """Where everything stands: the slots, the view, the thicknesses, the words, the names."""
 
     subject: Subject
-    wanted: Wanted
     layout: Layout
     view: View
     gauge: Gauge
@@ -167,14 +106,16 @@ class Composition:
     names: Names = Names()
     listed: tuple[str, ...] = ()
     """The rows that the legend has room for."""
-    extent: Extent | None = None
+    extent: Extent = NOTHING
+    """How far all that is drawn extends."""
 
     def while_dragged(self, subject: Subject) -> Composition:
         """Return the composition while a hand changes the linkage: words and names stay where they are.
 
         The view stays, too, as long as all that the linkage passes lies on its stage.
         """
-        figured = symbols(subject.figure) if self.wanted.names > 1 else None
+        labels = (*self.names.labels, *self.names.listed)
+        figured = symbols(subject.figure) if any(one.about for one in labels) else None
         names = self.names.measuring(figured, subject.figure.scene.length_unit)
         extent = together(of_linkage(one, self.gauge) for one in subject.figures)
         view = nearest(extent, self.view, self.layout.stage)
@@ -187,16 +128,29 @@ def subject_of(scene: Scene, *, ghost: bool) -> Subject:
     return Subject(figure(scene), ghost_of(scene) if ghost else None)
 
 
-def composed(subject: Subject, asked: Wanted, look: Look) -> Composition:
-    """Return the composition of a subject in a look, which is that of any theme, zoom and quantity."""
-    return _composed(
-        subject, asked, replace(look, theme="light", zoom=1.0, pan=(0.0, 0.0), chart=None, over=None)
-    )
+def composed(
+    subject: Subject,
+    size: tuple[int, int],
+    look: Look,
+    docked: Docked,
+    moment: float | None = None,
+    also: tuple[complex, ...] = (),
+) -> Composition:
+    """Return the composition of a subject in a look, at any zoom, in any theme, with any quantities charted.
+
+    In motion curves lie where joints pass anyway, so it is the same with them and without. `moment` is the
+    phase of a still, `also` are further places in the scene's unit that the view includes.
+    """
+    charts = len(chart_tokens(subject.figure.scene, look.chart))
+    look = replace(look, theme="light", zoom=1.0, pan=(0.0, 0.0), chart=None, over=None)
+    if moment is None:
+        look = replace(look, trace=True)
+    return _composed(_Composer(subject, size, look, charts, docked, moment, also))
 
 
 @kept_as_said(8)
-def _composed(subject: Subject, asked: Wanted, look: Look) -> Composition:
-    return _Composer(subject, look, asked, letters(), theme_of(look.theme)).composition()
+def _composed(composer: _Composer) -> Composition:
+    return composer.composition()
 
 
 @frozen
@@ -204,10 +158,12 @@ class _Composer:
     """Composes one picture."""
 
     subject: Subject
+    size: tuple[int, int]
     look: Look
-    asked: Wanted
-    type: Type
-    theme: Theme
+    charts: int
+    docked: Docked
+    moment: float | None
+    also: tuple[complex, ...]
 
     def composition(self) -> Composition:
         """Fit the linkage with room for names, choose their anchors, then fit all once more with these.
@@ -216,8 +172,8 @@ class _Composer:
         """
         if not self._named:
             return self._arranged(self._first(0.0), self._far_centres)
-        still = self.asked.moment is not None
-        for lines in _ROOM_FOR_LINES if still and self.asked.names > 1 else (2.0,):
+        still = self.moment is not None
+        for lines in _ROOM_FOR_LINES if still and self.look.names > 1 else (0.8,):
             composition = self._composed(lines)
             if self._share(composition) >= _LEAST:
                 break
@@ -225,19 +181,26 @@ class _Composer:
 
     def _composed(self, lines: float) -> Composition:
         """Return the composition with so much room for dimension lines at first, in heights of their text."""
-        still = self.asked.moment is not None
-        composition = self._arranged(self._first(lines), self._far_centres)
+        still = self.moment is not None
+        composition = self._arranged(self._first(lines), (*self._rows, *self._far_centres))
         for _ in range(_ROUNDS if still else 1):
             names, last = self._names(composition), composition
             composition = self._arranged_for(names, composition)
-            grown = abs(composition.view.scale / last.view.scale - 1.0)
-            if grown < (_SAME if still else _ALIKE):
+            grown = composition.view.scale / last.view.scale - 1.0
+            if abs(grown) < (_SAME if still else _ALIKE):
                 return replace(composition, names=names)
         names = self._names(composition)
         while not {label.row for label in names.listed} <= {*composition.listed}:
             composition = self._arranged_for(names, composition, composition.listed)
             names = self._names(composition)  # names hold in the view in which they were chosen
         return replace(composition, names=names)
+
+    @property
+    def _rows(self) -> tuple[str, ...]:
+        """The rows of all dimensions, in motion: most of them are listed there."""
+        unit = self.subject.figure.scene.length_unit
+        known = self._symbols.dimensions if self._symbols and self.moment is None else ()
+        return tuple(f"{one.written(unit)}, {one.about}" for one in known)
 
     def _arranged_for(self, names: Names, composition: Composition, rows: Iterable[str] = ()) -> Composition:
         """Return the composition with room for exactly these names, which were chosen in another one.
@@ -250,7 +213,7 @@ class _Composer:
 
     def _share(self, composition: Composition) -> float:
         """Return the share of the picture's width or height that the linkage takes, whichever is greater."""
-        box, (wide, high) = self._linkage.box, self.asked.size
+        box, (wide, high) = self._linkage.box, self.size
         scale = composition.view.scale
         return max(scale * (box.right - box.left) / wide, scale * (box.high - box.low) / high)
 
@@ -259,11 +222,20 @@ class _Composer:
         return self.look.named or bool(self.look.vectors)
 
     @cached_property
+    def type(self) -> Type:
+        """The letters."""
+        return letters()
+
+    @property
+    def _polygons(self) -> int:
+        """1 for both polygons, 2 for a large one, 0 for none."""
+        return self.look.polygons_shown
+
+    @cached_property
     def _bare(self) -> Layout:
         """The slots that depend on nothing but the window, and the caption's."""
-        asked = self.asked
-        parts = layout(asked.size, docked=asked.docked, type_scale=asked.type_scale)
-        if not asked.caption or parts.caption:
+        parts = layout(self.size, docked=self.docked, type_scale=self.look.type_scale)
+        if not self.look.caption or self.docked.listed or parts.caption:
             return parts
         lines = caption_lines(parts, said(self.subject.figure.scene.look_at), self.type)
         return with_caption(parts, len(lines))
@@ -276,10 +248,7 @@ class _Composer:
             together(of_linkage(one, Gauge(0, 0, 0, 0)) for one in self.subject.figures).box,
         )
         parts = max(
-            (
-                with_side(parts, self.asked.charts, self.asked.polygons, beside=beside)
-                for beside in (False, True)
-            ),
+            (with_side(parts, self.charts, self._polygons, beside=beside) for beside in (False, True)),
             key=lambda one: _bare_scale(box, one.stage),
         )
         stage = parts.stage
@@ -291,18 +260,18 @@ class _Composer:
     @cached_property
     def _linkage(self) -> Extent:
         """How far the linkage extends, with the one beside it and places that have to be seen."""
-        asked, figures = self.asked, self.subject.figures
-        extents = [of_linkage(one, self._gauge, asked.moment, traced=asked.traced) for one in figures]
-        if also := (*asked.also, *self._near_centres):
+        traced = self.look.trace or self.look.ink
+        extents = [of_linkage(one, self._gauge, self.moment, traced=traced) for one in self.subject.figures]
+        if also := (*self.also, *self._near_centres):
             extents.append(around(np.array(also), 2.0 * self._gauge.bar))
         return together(extents)
 
     @property
     def _near_centres(self) -> tuple[complex, ...]:
         """The instant centres near the linkage, in its pose or over its cycle, where they are shown."""
-        if not self.asked.centres:
+        if not self.look.centres:
             return ()
-        shown, moment = self.subject.figure, self.asked.moment
+        shown, moment = self.subject.figure, self.moment
         scene, pairs = shown.scene, CentrePairs(shown)
         if moment is not None:
             pose = scene.pose(moment, 2)
@@ -314,14 +283,14 @@ class _Composer:
     def arrows(self) -> tuple[Arrows, ...]:
         """The arrows of velocity and acceleration."""
         return arrows_for(
-            self.subject.figure, self.look, self._bare, self._gauge, self.theme, self.asked.moment
+            self.subject.figure, self.look, self._bare, self._gauge, theme_of(self.look.theme), self.moment
         )
 
     @cached_property
     def _arrow_extent(self) -> Extent:
         """How far arrows and their names extend."""
         shown, extents = self.subject.figure, []
-        moment = self.asked.moment
+        moment = self.moment
         motion = shown.cycle if moment is None else shown.scene.solve(phase=np.array([moment]))
         step = 1 if moment is not None else max(len(shown.cycle.phase) // _SAMPLES, 1)
         size = self._bare.small_size
@@ -342,15 +311,15 @@ class _Composer:
 
         Dimension lines have so much room on each side, in heights of their text.
         """
-        extents, asked, parts = [self._linkage, self._arrow_extent], self.asked, self._bare
+        extents, parts = [self._linkage, self._arrow_extent], self._bare
         size, shown = parts.label_size, self.subject.figure
-        if asked.joints_named:
+        if self.look.joints_named:
             for name in shown.in_view:
                 wide = self.type.width(subscripted(name), size, strong=True)
                 path = (
                     shown.cycle.position[name]
-                    if asked.moment is None
-                    else np.array(shown.scene.pose(asked.moment, 0).position[name])
+                    if self.moment is None
+                    else np.array(shown.scene.pose(self.moment, 0).position[name])
                 )
                 gap = self._gauge.bar + 0.2 * size
                 extents.append(
@@ -359,7 +328,7 @@ class _Composer:
                         (wide + gap, size + gap, wide + gap, size + gap),
                     )
                 )
-        if asked.names > 1:
+        if self.look.names > 1:
             extents.append(Extent(self._linkage.boxes, self._linkage.margins + lines * parts.small_size))
         return together(extents)
 
@@ -370,14 +339,14 @@ class _Composer:
         any. The column stands beside the linkage or above it, charts beside or below it, whichever leaves the
         linkage larger.
         """
-        asked, still = self.asked, self.asked.moment is not None
+        still = self.moment is not None
         sides = [
-            (beside, with_side(self._bare, asked.charts, asked.polygons, beside=beside))
+            (beside, with_side(self._bare, self.charts, self._polygons, beside=beside))
             for beside in ((False, True) if self._may_stand_beside else (False,))
         ]
-        least = _KEEPS * max(_scale(extent, parts, still) for _, parts in sides)
-        legend = Legendary(asked.key_lines, listed)
-        scenes: Sequence[Scene] = self.subject.scenes if asked.worded else ()
+        most = max(_scale(extent, parts, still) for _, parts in sides)
+        legend = Legendary(key_lines(self.look), listed)
+        scenes: Sequence[Scene] = self.subject.scenes if self.look.hud and not self.docked.listed else ()
         rows = self.subject.rows if scenes else ()
         best: tuple[float, Layout, WordBlock] | None = None
         for block in columns(scenes, rows, self._bare, legend, self.type):
@@ -396,25 +365,26 @@ class _Composer:
                     best = weight, slots, block
                     fitting = scale
             # what is listed is nowhere else
-            if best is not None and (fitting >= least or (listed and not block.lines and not block.rows)):
+            alone = listed and not block.lines and not block.rows
+            if best is not None and fitting >= (_KEEPS_LISTED if alone else _KEEPS) * most:
                 break
         assert best is not None
         _, slots, block = best
         view = fitted(extent, room_of(slots, still=still))
-        return Composition(self.subject, asked, slots, view, self._gauge, block, listed=listed, extent=extent)
+        return Composition(self.subject, slots, view, self._gauge, block, listed=listed, extent=extent)
 
     @property
     def _may_stand_beside(self) -> bool:
-        return bool(self.asked.charts or self.asked.polygons) and self.asked.size[0] >= _WIDE_ENOUGH
+        return bool(self.charts or self._polygons) and self.size[0] >= _WIDE_ENOUGH
 
     # The names.
 
     @cached_property
     def _symbols(self) -> Symbols | None:
-        return symbols(self.subject.figure) if self.asked.names > 1 else None
+        return symbols(self.subject.figure) if self.look.names > 1 else None
 
     def _setting(self, composition: Composition) -> DrawSetting:
-        parts = self.subject.figure, composition.view, self._gauge, self.theme
+        parts = self.subject.figure, composition.view, self._gauge, theme_of(self.look.theme)
         return DrawSetting(*parts, composition.layout, self.look, self.type)
 
     def _marks(self, setting: DrawSetting) -> tuple[Turning | Sliding | None, DeadCentres | None]:
@@ -424,11 +394,11 @@ class _Composer:
 
     def _names(self, composition: Composition) -> Names:
         setting = self._setting(composition)
-        return names_of(setting, self._symbols, *self._marks(setting), self.arrows, self.asked.moment)
+        return names_of(setting, self._symbols, *self._marks(setting), self.arrows, self.moment)
 
     def _label_extents(self, names: Names, composition: Composition) -> list[Extent]:
         """Return how far labels, the lines drawn with them and the marks of the input extend."""
-        shown, moment = self.subject.figure, self.asked.moment
+        shown, moment = self.subject.figure, self.moment
         motion = shown.cycle if moment is None else shown.scene.solve(phase=np.array([moment]))
         step = 1 if moment is not None else max(len(shown.cycle.phase) // _SAMPLES, 1)
         joints = [joint.name for joint in shown.linkage.joints]
@@ -458,7 +428,7 @@ class _Composer:
     @cached_property
     def _far_centres(self) -> tuple[str, ...]:
         """Rows for the centres that the picture does not show."""
-        return CentrePairs(self.subject.figure).far if self.asked.centres else ()
+        return CentrePairs(self.subject.figure).far if self.look.centres else ()
 
 
 def _parts_of(

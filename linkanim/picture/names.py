@@ -360,8 +360,11 @@ class _Labelling:
         arrowed = [weighed(choice, self.ground) for _, choice in arrows]
         for called in self._called:
             links = list(self._links_called(called))
+            weights = [weighed(one.choice, self.ground) for one in links]
+            if called is not self._called[-1] and not all(one.has_place for one in weights):
+                continue
             wanted = [*others, *links]
-            which = chosen_among([*known, *(weighed(one.choice, self.ground) for one in links), *arrowed])
+            which = chosen_among([*known, *weights, *arrowed])
             if None not in which[len(others) : len(wanted)]:
                 break
         placed = [one.at(n) for one, n in zip(wanted, which, strict=False) if n is not None]
@@ -648,7 +651,7 @@ class _Labelling:
                 places.append(middles[:, near])
         return anchors, np.concatenate(places, axis=1)
 
-    @property
+    @cached_property
     def _called(self) -> list[Mapping[Body, str]]:
         """What links may be called: all by name, or all by number; bodies that share a number by name."""
         look, figure = self.setting.look, self.setting.figure

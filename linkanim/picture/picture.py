@@ -12,7 +12,7 @@ from unicodedata import normalize
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.centres import Centres
 from linkanim.picture.chart import ChartStrips, chart_strips, pen_for
-from linkanim.picture.composition import Composition, composed, subject_of, wanted
+from linkanim.picture.composition import Composition, composed, subject_of
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import LISTED_STEP, Hud, Legend, caption_lines, legend_for, measured
@@ -111,13 +111,10 @@ class Picture:
         """Return the composition of the scene, or that of the one `placed` with this scene in a hand."""
         goal, look = self._goal, self.look
         subject = subject_of(placed or goal, ghost=look.ghost)
-        asked = wanted(placed or goal, self.size, look, docked, self._moment, also)
-        composition = composed(subject, asked, look)
-        return (
-            composition
-            if placed in (None, goal)
-            else composition.while_dragged(subject_of(goal, ghost=look.ghost))
-        )
+        composition = composed(subject, self.size, look, docked, self._moment, also)
+        if placed in (None, goal):
+            return composition
+        return composition.while_dragged(subject_of(goal, ghost=look.ghost))
 
     @property
     def about(self) -> tuple[float, float]:

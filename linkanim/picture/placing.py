@@ -30,8 +30,8 @@ _COVERING_MOMENTS = 8
 """The moments at which it is asked what a place covers."""
 _BETWEEN = 0.35
 """The gap between two labels side by side, in heights of letters."""
-_NEARER = 1.0
-"""The pixels by which a value is nearer to its own line than to another dimension's."""
+_OFF = 0.4
+"""How far a dimension's value is off its own line, in gaps between lines; off others' it is a pixel more."""
 _SURE = 1e-9
 
 
@@ -64,12 +64,6 @@ class Alternatives(NamedTuple):
             price=self.price[some],
             faults=None if self.faults is None else self.faults[:, some],
             lines=None if self.lines is None else self.lines[:, some],
-        )
-
-    def during(self, moments: Bools) -> Alternatives:
-        """Return its places at some moments."""
-        return self._replace(
-            places=self.places[moments], lines=None if self.lines is None else self.lines[moments]
         )
 
 
@@ -106,11 +100,11 @@ class _LabelSweep(NamedTuple):
             left, right, np.minimum(one.imag, other.imag), np.maximum(one.imag, other.imag), halves
         )
 
-    def met_by(self, other: _LabelSweep, margin: float) -> Bools:
-        """Return the moments at which another rectangle comes nearer to it than a margin."""
+    def met_by(self, other: _LabelSweep, margin: float) -> bool:
+        """Return whether another rectangle ever comes nearer to it than a margin."""
         meets = (other.right + margin > self.left) & (other.left - margin < self.right)
         meets &= (other.bottom + margin > self.top) & (other.top - margin < self.bottom)
-        return meets[:, 0]
+        return bool(meets.any())
 
     def _meets(self, left: Floats, right: Floats, top: Floats, bottom: Floats, more: Floats) -> Bools:
         more = more + 1.0
@@ -151,6 +145,16 @@ class Weighed(NamedTuple):
     price: Floats
     swept: _LabelSweep
 
+    def allowed(self, share: Floats) -> Bools:
+        """Return which places have faults in no greater share of the moments than the label bears."""
+        most = max(self.label.most, float(share.min()) if self.label.most >= 1 else 0.0)
+        return np.asarray(share <= most + _SURE)
+
+    @property
+    def has_place(self) -> bool:
+        """Whether it has a place where no other label is."""
+        return bool(self.allowed(_share(self.label, self.faults)).any())
+
 
 def weighed(label: Alternatives, ground: Obstacles) -> Weighed:
     """Return a label with what its places cost on the ground."""
@@ -162,31 +166,22 @@ def weighed(label: Alternatives, ground: Obstacles) -> Weighed:
 
 def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
     """Return the number of the place that each label takes; None for a label without a place."""
-    labels, faults = [one.label for one in known], [one.faults.copy() for one in known]
-    free = [int((~fault.any(axis=0)).sum()) for fault in faults]
-    off = [_off_its_line(label) if label.gap else None for label in labels]
+    labels = [one.label for one in known]
+    free = [int((~one.faults.any(axis=0)).sum()) for one in known]
     choice: list[int | None] = [None] * len(labels)
-    order = sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n))
-    for turn, n in enumerate(order, start=1):
-        share = _share(labels[n], faults[n])
-        allowed = share <= max(labels[n].most, share.min() if labels[n].most >= 1 else 0.0) + _SURE
+    placed: list[tuple[Alternatives, _LabelSweep]] = []
+    for n in sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n)):
+        label, faults, price, swept = known[n]
+        near = [one for one, other in placed if swept.met_by(other, label.gap + one.size[1])]
+        if near:
+            faults = faults | _hit_by(label, near)
+        share = _share(label, faults)
+        allowed = known[n].allowed(share)
         if not allowed.any():
             continue
-        every = faults[n].mean(axis=0)
-        cost = np.where(allowed, known[n].price + _FAULTY * share + every, np.inf)
+        cost = np.where(allowed, price + _FAULTY * share + faults.mean(axis=0), np.inf)
         best = choice[n] = int(cost.argmin())
-        mine = labels[n].at(best)
-        swept = _LabelSweep.by(mine)
-        for other in order[turn:]:
-            near = known[other].swept.met_by(swept, labels[other].gap + mine.size[1])
-            if near.any():
-                places, taken = labels[other].during(near), mine.during(near)
-                faults[other][near] |= _hit_by(places, taken)
-                near_own, near_taken = off[other], off[n]
-                if near_own is not None and near_taken is not None:
-                    faults[other][near] |= _confused(
-                        places, taken, near_own[near], near_taken[near, best : best + 1]
-                    )
+        placed.append((label.at(best), _LabelSweep.by(label.at(best))))
     return choice
 
 
@@ -229,46 +224,33 @@ def _faults(label: Alternatives, ground: Obstacles, swept: _LabelSweep) -> Bools
         for n in range(label.lines.shape[2]):
             line = label.lines[:, :, n]
             if ground.rects.size:
-                out |= _run_over(line, ground.rects, ground.sizes)
+                out |= _run_over(line, ground.rects, ground.sizes, np.ones(len(ground.sizes)))
             if n == 0 and discs.size:
                 out |= (_apart(discs[:, None], line[:, :, None]) < radii).any(axis=2)
     return out
 
 
-def _hit_by(label: Alternatives, other: Alternatives) -> Bools:
-    """Return where a label's places meet another label, which has one, or the lines drawn with it."""
-    middle, size = other.places, other.size
-    lines = None if other.lines is None else other.lines[:, 0]
-    apart = np.array([(size[0] + _BETWEEN * size[1], size[1])])
-    hit: Bools = np.asarray(_overlap(label.places, label.size, middle, apart).any(axis=2))
-    if lines is not None and lines.size:
-        hit |= crossed(label.places, label.size, lines, np.ones(lines.shape[1])).any(axis=2)
-    if label.lines is not None:
-        for n in range(label.lines.shape[2]):
-            hit |= _run_over(label.lines[:, :, n], middle, np.array([size]))
-        if lines is not None and label.gap:
-            hit |= _between(label.lines[:, :, 0], lines[:, None, 0]) < label.gap
+def _hit_by(label: Alternatives, others: Sequence[Alternatives]) -> Bools:
+    """Return where a label's places meet other labels, which have one each, or the lines drawn with them."""
+    middles = np.concatenate([one.places for one in others], axis=1)
+    sizes = np.array([one.size for one in others])
+    apart = sizes + _BETWEEN * sizes[:, 1:] * (1.0, 0.0)
+    hit: Bools = np.asarray(_overlap(label.places, label.size, middles, apart).any(axis=2))
+    lines = [one.lines[:, 0] for one in others if one.lines is not None]
+    if lines:
+        drawn = np.concatenate(lines, axis=1)
+        hit |= crossed(label.places, label.size, drawn, np.ones(drawn.shape[1])).any(axis=2)
+    if label.lines is None:
+        return hit
+    for n in range(label.lines.shape[2]):
+        clear = np.array([1.0 + (0.0 if n else _OFF * one.gap) for one in others])
+        hit |= _run_over(label.lines[:, :, n], middles, sizes, clear)
+    if lines and label.gap:
+        firsts = np.stack([some[:, 0] for some in lines], axis=1)
+        hit |= (_between(label.lines[:, :, 0, None], firsts[:, None]) < label.gap).any(axis=2)
+        clear = np.full(len(lines), 1.0 + _OFF * label.gap)
+        hit |= crossed(label.places, label.size, firsts, clear).any(axis=2)
     return hit
-
-
-def _confused(label: Alternatives, other: Alternatives, off: Floats, other_off: Floats) -> Bools:
-    """Return where a value or another one, which has its place, is nearer than `off` to the other's line."""
-    assert label.lines is not None
-    assert other.lines is not None
-    lines = other.lines[:, :1, 0]
-    mine: Bools = off_rects(label.places, label.size, lines)[:, :, 0] < off
-    return mine | (off_rects(other.places, other.size, label.lines[:, :, 0])[:, 0] < other_off)
-
-
-def _off_its_line(label: Alternatives) -> Floats:
-    """Return how far from each place of a value another dimension's line has to stay (n, k).
-
-    Its own line is nearer, by what an eye sees. 0 where the bar is its line.
-    """
-    assert label.lines is not None
-    lines = label.lines[:, :, 0]
-    own = off_rects(label.places.reshape(-1, 1), label.size, lines.reshape(-1, 1, 2)).reshape(lines.shape[:2])
-    return np.where(lines[..., 0] == lines[..., 1], 0.0, own + _NEARER)
 
 
 def _covered(label: Alternatives, ground: Obstacles) -> Floats:
@@ -316,11 +298,11 @@ def crossed(places: Loop, size: Size, lines: Loop, halves: Floats) -> Bools:
     return crossed
 
 
-def _run_over(lines: Loop, others: Loop, sizes: Floats) -> Bools:
-    """Return whether lines (n, k, 2) run over any of some rectangles (n, m), as (n, k)."""
+def _run_over(lines: Loop, others: Loop, sizes: Floats, clear: Floats) -> Bools:
+    """Return whether lines (n, k, 2) come as near as `clear` (m,) to any of some rectangles (n, m)."""
     middle = ((lines[..., 0] + lines[..., 1]) / 2)[:, :, None] - others[:, None]
     arm = ((lines[..., 1] - lines[..., 0]) / 2)[:, :, None]
-    wide, high = sizes[:, 0] / 2 + 1.0, sizes[:, 1] / 2 + 1.0
+    wide, high = sizes[:, 0] / 2 + clear, sizes[:, 1] / 2 + clear
     across = np.abs(middle.real * arm.imag - middle.imag * arm.real)
     meets = (np.abs(middle.real) < wide + np.abs(arm.real)) & (np.abs(middle.imag) < high + np.abs(arm.imag))
     meets &= across < wide * np.abs(arm.imag) + high * np.abs(arm.real)

@@ -210,7 +210,7 @@ def _margins(picture: Picture, phase: float) -> Iterator[Fault]:
     composition = picture.composition
     stage = composition.layout.stage
     margin = 0.04 * min(picture.size)
-    drawn = composition.extent.pixels(picture.view) if composition.extent is not None else stage
+    drawn = composition.extent.pixels(picture.view)
     gaps = (
         min(drawn.x - stage.x, stage.right - drawn.right),
         min(drawn.y - stage.y, stage.bottom - drawn.bottom),

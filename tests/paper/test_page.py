@@ -290,9 +290,7 @@ def test_groups_of_one_name_have_ids_of_their_own() -> None:
 
 
 def _table(first: np.ndarray, values: np.ndarray) -> NumberTable:
-    rows = [
-        (n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)
-    ]
+    rows = [(n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)]
     return NumberTable("t.csv", (), tuple(rows))
 
 
