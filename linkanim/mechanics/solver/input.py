@@ -35,7 +35,18 @@ from linkanim.mechanics.angles import (
     two_product,
     two_sum,
 )
-from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, are_inputs, recorded_with, root, sqrt
+from linkanim.mechanics.arithmetic import (
+    Graph,
+    Moving,
+    Slope,
+    Value,
+    are_inputs,
+    minimum,
+    recorded_with,
+    root,
+    select,
+    sqrt,
+)
 from linkanim.mechanics.linkage import CrankTriangle
 from linkanim.mechanics.precise import context, cosine, exactly, nearest_sum, sine
 from linkanim.mechanics.program import Array
@@ -108,9 +119,33 @@ class InputState:
             return self.pace
         return self.pace / (self.ends.root_u.slope * self.ends.root_v.slope).scaled(2.0)
 
-    def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, form: HalfForm = half_angle) -> Half:
-        """Return half of ratio × θ - reference, to the last digit at any number of turns."""
-        return self.half_shifted(ratio, self.origin * ratio - reference, form)
+    def half(
+        self,
+        reference: Sum,
+        ratio: Fraction = Fraction(1),
+        *,
+        form: HalfForm = half_angle,
+        sharp: bool = False,
+    ) -> Half:
+        """Return half of ratio × θ - reference, to the last digit at any number of turns.
+
+        Of a swing that is a digit of its amplitude; where `sharp`, next to both ends one of the angle itself.
+        """
+        shift = self.origin * ratio - reference
+        if not sharp or self.ends is None or _half_turns(shift)[1] == Sum(0.0):
+            return self.half_shifted(ratio, shift, form)
+        angle, rest = self._from_nearer_end(self.ends)
+        scaled, low = _scaled(angle, ratio)
+        return form(*_summed(scaled, low + rest * float(ratio), shift))
+
+    def _from_nearer_end(self, ends: Ends) -> tuple[Value, Value]:
+        """Return the angle of a swing in two parts; by phase from the nearer end, where the way is exact."""
+        if self.phase is None:
+            return self.angle, self.rest
+        u, v, most = ends.u.value, ends.v.value, (ends.high - ends.low).times(0.5)
+        angle, rest = two_sum(minimum(u, v) * 2.0, -most.high)
+        side = select(v, u, 1.0, -1.0)
+        return angle * side, (rest - most.low) * side
 
     def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
         """Return half of ratio × angle + shift.

@@ -430,7 +430,7 @@ class Loop:
 
     def _half(self, state: InputState) -> Half:
         reference = self.root.reference - self.gearing.offset
-        return state.half(reference, self.gearing.ratio, form=self.form)
+        return state.half(reference, self.gearing.ratio, form=self.form, sharp=self.root.quick)
 
     @property
     def form(self) -> Callable[[Value, Value], Half]:

@@ -125,6 +125,12 @@ class LoopRoot:
         return self.single or bool(self.u.least >= WIDE * self.spread)
 
     @property
+    def quick(self) -> bool:
+        """True where a factor comes near zero without limiting the crank: the closure moves quickly there."""
+        factors = (self.w,) if self.single else (self.u, self.w)
+        return self.ample is None and any(0 <= one.least < WIDE * self.spread for one in factors)
+
+    @property
     def single(self) -> bool:
         """True where the root has no factor U (a slot through a pin)."""
         return self.u is ALWAYS
