@@ -40,9 +40,11 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     chart = made_folder(options.into) / CHART
     single(chart).refuse_foreign([CHART])
 
-    measured = result.with_recorded(result.run(progress))
-    form = result.as_json if options.json else result.as_markdown if options.markdown else result.as_text
-    print(form(measured))
+    measured = result.run(progress).with_recorded()
+    shown = (
+        measured.as_json if options.json else measured.as_markdown if options.markdown else measured.as_text
+    )
+    print(shown())
     print(drawing.draw(measured, chart), file=sys.stderr)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from linkanim.atomic_files import checked_target
 from linkanim.bench.reference import Score
-from linkanim.bench.result import Measured, Result, as_markdown
+from linkanim.bench.result import Measured, Result
 from linkanim.manifest import replacing, single
 
 SIZE = (1600, 960)
@@ -60,7 +60,7 @@ def _png(result: Result) -> bytes:
     figure.supylabel("worst error in longest links")
     _key(figure, rows, styles)
     buffer = BytesIO()
-    canvas.print_png(buffer, metadata={TABLE: as_markdown(result)})
+    canvas.print_png(buffer, metadata={TABLE: result.as_markdown()})
     return buffer.getvalue()
 
 

@@ -16,7 +16,7 @@ from mpmath import mp, mpc, mpf, workdps
 
 from linkanim.bench.methods import FEW, Timed, batch
 from linkanim.bench.questions import EASY, FOUR_BAR, TURN, Floats
-from linkanim.bench.reference import DIGITS, STEP, CasePath, answer, crossing, errors_of
+from linkanim.bench.reference import DIGITS, STEP, CasePath, answer, crossing
 from linkanim.frozen import frozen
 from linkanim.scenes.many import solve_many
 from linkanim.scenes.reading import scene_from
@@ -25,6 +25,20 @@ from linkanim.scenes.scene import Scene
 CYCLE = 360
 TRIED = 90
 """The instants, or linkages, at which errors are looked for."""
+
+
+@frozen
+class FurtherMeasured:
+    """A piece of further work: its time in ns for each pose or linkage, its worst error, and where that is.
+
+    `at` are hexadecimal floats.
+    """
+
+    name: str
+    words: str
+    ns: float
+    error: float
+    at: tuple[str, ...]
 
 
 @frozen
@@ -41,6 +55,13 @@ class FurtherWork:
     timed: Timed
     tried: Floats
     errors: Callable[[Floats], Floats]
+
+    def measured(self, ns: float) -> FurtherMeasured:
+        """Return it with its time and its worst error."""
+        errors = self.errors(self.tried)
+        worst = int(np.nan_to_num(errors, nan=np.inf).argmax())
+        at = tuple(number.hex() for number in self.tried[worst].tolist())
+        return FurtherMeasured(self.name, self.words, ns, float(errors[worst]), at)
 
 
 def further() -> tuple[FurtherWork, ...]:
@@ -89,7 +110,7 @@ def further() -> tuple[FurtherWork, ...]:
 def cycle_errors(inputs: Floats) -> Floats:
     """Return how far positions, in longest links, are off."""
     exact = answer(replace(FOUR_BAR.easy, inputs=inputs[:, 0]))
-    return errors_of(batch(exact.question), exact)[0]
+    return exact.errors(batch(exact.question))[0]
 
 
 def different(count: int) -> Floats:

@@ -70,6 +70,18 @@ class Timed:
     work: Callable[[], object]
     poses: int
 
+    def seconds(self, repeats: int, clock: Callable[[], float]) -> float:
+        """Return the time of the repeats (s), after one run that is not timed.
+
+        Memory that was idle between rounds may have been given back to a virtual machine's host, and the time
+        to get it again does not belong to the work.
+        """
+        self.work()
+        start = clock()
+        for _ in range(repeats):
+            self.work()
+        return clock() - start
+
 
 @frozen
 class Entry:

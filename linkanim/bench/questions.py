@@ -43,6 +43,10 @@ class TurnStep(NamedTuple):
     ratio: float = 1.0
     offset: float = 0.0
 
+    def place(self, at: Places, angle: Any, exp: Callable[[Any], Any]) -> Any:
+        """Return where it lies at an input's angle."""
+        return at[self.pivot] + self.length * exp(1j * (self.ratio * angle + self.offset))
+
 
 class SlideStep(NamedTuple):
     """A bar to a slider on a line through `base`; side +1 is the place further along the line."""
@@ -63,6 +67,11 @@ class FixedStep(NamedTuple):
     at: complex
     length: float
 
+    def place(self, at: Places) -> Any:
+        """Return where it lies by the places of the two joints, or a derivative by theirs."""
+        first, second = (at[name] for name in self.on)
+        return first + (second - first) * (self.at / self.length)
+
 
 Step = TurnStep | RRR | SlideStep | FixedStep
 Dyad = RRR | SlideStep
@@ -80,6 +89,22 @@ class DyadChain(NamedTuple):
     def dyads(self) -> tuple[Dyad, ...]:
         """The steps that have two closures."""
         return tuple(step for step in self.steps if isinstance(step, RRR | SlideStep))
+
+    def joints_at(self, angle: Any, close: Closing, exp: Callable[[Any], Any] = np.exp) -> dict[str, Any]:
+        """Return where the joints lie at an input's angle, dyads' as `close` gives them.
+
+        `exp` is the exponential function for these numbers: complex arrays, single ones, or with many digits.
+        """
+        at: dict[str, Any] = dict(self.pins)
+        for step in self.steps:
+            match step:
+                case TurnStep():
+                    at[step.name] = step.place(at, angle, exp)
+                case FixedStep():
+                    at[step.name] = step.place(at)
+                case _:
+                    at[step.name] = close(step, at)
+        return at
 
 
 def chain_of(linkage: Linkage) -> DyadChain:
@@ -136,28 +161,6 @@ def longest_of(linkage: Linkage) -> float:
     pins = [complex(*pin.position) for pin in linkage.pins]
     grounds = (abs(one - other) for one in pins for other in pins)
     return max(*(length for joint in linkage.joints for _, length in joint.bars), *grounds)
-
-
-def joints_at(
-    chain: DyadChain, angle: Any, close: Closing, exp: Callable[[Any], Any] = np.exp
-) -> dict[str, Any]:
-    """Return where the joints lie at an input's angle, dyads' as `close` gives them.
-
-    `exp` is the exponential function for these numbers: complex arrays, single ones, or with many digits.
-    """
-    at: dict[str, Any] = dict(chain.pins)
-    for step in chain.steps:
-        if isinstance(step, TurnStep):
-            at[step.name] = at[step.pivot] + step.length * exp(1j * (step.ratio * angle + step.offset))
-        else:
-            at[step.name] = point_on(step, at) if isinstance(step, FixedStep) else close(step, at)
-    return at
-
-
-def point_on(step: FixedStep, at: Places) -> Any:
-    """Return the place of a body's point by those of the two joints, or a derivative by theirs."""
-    first, second = (at[name] for name in step.on)
-    return first + (second - first) * (step.at / step.length)
 
 
 def circle_dyad(dyad: Dyad, at: Places, side: Any, root: Callable[[Any], Any] = np.sqrt) -> Any:
@@ -220,6 +223,11 @@ class CaseSet:
     name: str
     easy: Case
     hard: tuple[Case, ...]
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """All of them, the easy one first."""
+        return self.easy, *self.hard
 
 
 def degrees(first: int, last: int) -> Floats:

@@ -31,7 +31,6 @@ from linkanim.bench.questions import (
     TurnStep,
     chain_of,
     circle_dyad,
-    joints_at,
     longest_of,
 )
 from linkanim.frozen import frozen
@@ -70,6 +69,40 @@ class Answer:
     question: Question
     orders: tuple[Mapping[str, Exact], ...]
     other: Mapping[str, Complexes]
+
+    def errors(self, orders: Orders) -> list[Floats]:
+        """Return the errors of the orders that are found at each pose: of the joint that is farthest off."""
+        longest = self.question.longest
+        rates = [
+            _farthest(places, exact) / np.maximum(_largest(exact), longest)
+            for places, exact in zip(orders[1:], self.orders[1:], strict=False)
+        ]
+        return [_farthest(orders[0], self.orders[0]) / longest, *rates]
+
+    def score(self, solve: Solve) -> Score:
+        """Return the score of a method's self."""
+        with np.errstate(all="ignore"):
+            solved = solve(self.question)
+            error, *rates = self.errors(solved)
+            wrong, missing = self._elsewhere(solved[0]), ~np.isfinite(error)
+            right = ~wrong & ~missing
+        worst = [_worst(one, right) for one in (error, *rates)]
+        position, velocity, acceleration, *_ = (*(largest for largest, _ in worst), np.nan, np.nan)
+        given = self.question.angles if self.question.by_angle else self.question.phases
+        at = tuple(float(given[n]).hex() for _, n in worst)
+        return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()), at)
+
+    def _elsewhere(self, places: Places) -> Any:
+        """Return which poses are on another closure than the right one, as a mask."""
+        here, apart = self.orders[0], APART * self.question.longest
+        return np.any(
+            [
+                (np.abs(other - here[name].high) > apart)
+                & (2 * np.abs(places[name] - other) < here[name].distance(places[name]))
+                for name, other in self.other.items()
+            ],
+            axis=0,
+        )
 
 
 def answer(case: Case) -> Answer:
@@ -183,9 +216,8 @@ class CasePath:
     def pose(self, given: Any) -> Pose:
         """Return the places of all joints at a given angle or phase."""
         phase, (pins, steps) = self.phase(given), self._exact
-        chain = DyadChain(pins, steps)
-        return joints_at(
-            chain, self.angle(given), lambda dyad, at: closed(dyad, at, self.side(dyad, phase)), mp.exp
+        return DyadChain(pins, steps).joints_at(
+            self.angle(given), lambda dyad, at: closed(dyad, at, self.side(dyad, phase)), mp.exp
         )
 
     def others(self, at: Pose) -> Pose:
@@ -263,30 +295,6 @@ class Score:
         return self.error, self.velocity_error, self.acceleration_error
 
 
-def errors_of(orders: Orders, answer: Answer) -> list[Floats]:
-    """Return the errors of the orders that are found at each pose: of the joint that is farthest off."""
-    longest = answer.question.longest
-    rates = [
-        _farthest(places, exact) / np.maximum(_largest(exact), longest)
-        for places, exact in zip(orders[1:], answer.orders[1:], strict=False)
-    ]
-    return [_farthest(orders[0], answer.orders[0]) / longest, *rates]
-
-
-def score(solve: Solve, answer: Answer) -> Score:
-    """Return the score of a method's answer."""
-    with np.errstate(all="ignore"):
-        solved = solve(answer.question)
-        error, *rates = errors_of(solved, answer)
-        wrong, missing = _elsewhere(solved[0], answer), ~np.isfinite(error)
-        right = ~wrong & ~missing
-    worst = [_worst(one, right) for one in (error, *rates)]
-    position, velocity, acceleration, *_ = (*(largest for largest, _ in worst), np.nan, np.nan)
-    given = answer.question.angles if answer.question.by_angle else answer.question.phases
-    at = tuple(float(given[n]).hex() for _, n in worst)
-    return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()), at)
-
-
 def together(scores: Sequence[Score]) -> Score:
     """Return the worst errors and the sums of several scores."""
     errors = zip(*(score.errors for score in scores), strict=True)
@@ -311,16 +319,3 @@ def _farthest(places: Places, exact: Mapping[str, Exact]) -> Floats:
 
 def _largest(exact: Mapping[str, Exact]) -> Floats:
     return np.max([np.abs(place.high) for place in exact.values()], axis=0)  # type: ignore[no-any-return]
-
-
-def _elsewhere(places: Places, answer: Answer) -> Any:
-    """Return which poses are on another closure than the right one, as a mask."""
-    here, apart = answer.orders[0], APART * answer.question.longest
-    return np.any(
-        [
-            (np.abs(other - here[name].high) > apart)
-            & (2 * np.abs(places[name] - other) < here[name].distance(places[name]))
-            for name, other in answer.other.items()
-        ],
-        axis=0,
-    )

@@ -3,10 +3,10 @@
 Its parts, in reading order:
 
 - Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
-- The result of a run of the benchmark: rows of speed and error.
+- The result of a run of the benchmark: rows of speed and error, as a table or as JSON.
 - What was recorded of other methods, for the rows beside.
 - Where errors are worst, and each of them once more.
-- A result as a table for the terminal or the manual, and as JSON.
+- The words and numbers of the table.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from linkanim.bench.further import FurtherWork, further
+from linkanim.bench.further import FurtherMeasured, FurtherWork, further
 from linkanim.bench.methods import Entry, Timed, batch, entries
 from linkanim.bench.questions import MECHANISMS, CaseSet
-from linkanim.bench.reference import Score, Solve, answer, score, together
+from linkanim.bench.reference import Score, Solve, answer, together
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text, markdown
 from linkanim.frozen import frozen
@@ -62,38 +62,21 @@ def nanoseconds(
     rounds, or fewer, but at least three, if `budget` seconds have passed on the clock `wall`. `progress` is
     called with (rounds done, rounds in all).
     """
-    repeats = {key: _repeats(timed, clock) for key, timed in work.items()}
+    once = {key: timed.seconds(1, clock) for key, timed in work.items()}
+    repeats = {key: max(round(LEAST_SECONDS / one), 1) if one > 0 else 1 for key, one in once.items()}
     taken: dict[Key, list[float]] = {key: [] for key in work}
     start = wall()
     for done in range(rounds):
         if done >= FEWEST and wall() - start > budget:
             break
         for key, timed in work.items():
-            taken[key].append(_seconds(timed, repeats[key], clock) / (timed.poses * repeats[key]))
+            taken[key].append(timed.seconds(repeats[key], clock) / (timed.poses * repeats[key]))
         if progress is not None:
             progress(done + 1, rounds)
     return {key: median(times) * 1e9 for key, times in taken.items()}
 
 
-def _repeats(timed: Timed, clock: Callable[[], float]) -> int:
-    once = _seconds(timed, 1, clock)
-    return max(round(LEAST_SECONDS / once), 1) if once > 0 else 1
-
-
-def _seconds(timed: Timed, repeats: int, clock: Callable[[], float]) -> float:
-    """Return the time of the repeats (s), after one run that is not timed.
-
-    Memory that was idle between rounds may have been given back to a virtual machine's host, and the time to
-    get it again does not belong to the work.
-    """
-    timed.work()
-    start = clock()
-    for _ in range(repeats):
-        timed.work()
-    return clock() - start
-
-
-# The result of a run of the benchmark: rows of speed and error.
+# The result of a run of the benchmark: rows of speed and error, as a table or as JSON.
 
 Progress = Callable[[int, int], None]
 Row = tuple[str, str, int]
@@ -137,29 +120,87 @@ class Measured:
     hard: Score
     cases: Mapping[str, Score]
 
-
-@frozen
-class FurtherMeasured:
-    """A piece of further work: its time in ns for each pose or linkage, its worst error, and where that is.
-
-    `at` are hexadecimal floats.
-    """
-
-    name: str
-    words: str
-    ns: float
-    error: float
-    at: tuple[str, ...]
+    @property
+    def cells(self) -> Sequence[str]:
+        """Its line in the table."""
+        times = (_time(self.ns_position), "" if self.ns_derivatives is None else _time(self.ns_derivatives))
+        return (
+            self.method,
+            *times,
+            _errors(self.easy),
+            _errors(self.hard),
+            f"{self.hard.wrong:,}",
+            f"{self.hard.nan:,}",
+        )
 
 
 @frozen
 class Result:
-    """The result of one run: the machine, and all rows."""
+    """The result of one run: the machine, and all rows; told as text, as the manual's table, or as JSON."""
 
     machine: Machine
     rows: tuple[Measured, ...]
     day: date
     further: tuple[FurtherMeasured, ...] = ()
+
+    def with_recorded(self) -> Result:
+        """Return a result of this solver with the rows that the manual's table has of other methods."""
+        page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
+        table = page.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0]
+        poses = {row.mechanism: (row.easy.poses, row.hard.poses) for row in self.rows}
+        rows, mechanism = list(self.rows), ""
+        for line in table.splitlines():
+            name, *cells = [cell.strip() for cell in line.strip("|").split("|")]
+            if name.startswith("**"):
+                mechanism = name.strip("*")
+            elif mechanism in poses and cells and not name.startswith(_OURS):
+                rows.append(_recorded(mechanism, name, cells, poses[mechanism]))
+        return replace(self, rows=tuple(rows))
+
+    def witnesses(self) -> list[str]:
+        """Return where this solver's errors are worst, each with the command that prints it again."""
+        lines = []
+        for row in (row for row in self.rows if row.key == "batch"):
+            for order, what in enumerate(ORDERS):
+                told = [
+                    (case.errors[order], name, case.at[order]) for name, case in row.cases.items() if case.at
+                ]
+                if told:
+                    error, name, at = max(told)
+                    lines.append(_witness(f"{row.mechanism}: {name}", what, error, [at]))
+        return lines + [_witness(one.name, "error", one.error, one.at) for one in self.further]
+
+    def as_text(self) -> str:
+        """Return the machine and the tables in aligned columns."""
+        tables = [f"{name}\n{columns([TITLES, *rows])}" for name, rows in self._by_mechanism()]
+        further_ = [(one.words, _time(one.ns), f"{one.error:.1e}") for one in self.further]
+        parts = [self.machine.line, *tables, self._note(), columns([FURTHER, *further_])]
+        return "\n\n".join([*parts, "\n".join(["worst errors", *self.witnesses()])])
+
+    def as_markdown(self) -> str:
+        """Return the manual's table, one mechanism after the other, with the machine of the measurement."""
+        blank = [""] * (len(TITLES) - 1)
+        rows = [line for name, lines in self._by_mechanism() for line in ([f"**{name}**", *blank], *lines)]
+        told = f"{self._note()} Measured on {self.day} on {self.machine.line}.\n"
+        return f"{markdown([TITLES, *rows])}\n\n{told}"
+
+    def as_json(self) -> str:
+        """Return one JSON object: the machine, and the rows with every case; null for a missing number."""
+        further = [asdict(row) for row in self.further]
+        rows = [asdict(row) for row in self.rows]
+        document = {"machine": self.machine._asdict(), "rows": rows, "further": further}
+        return json_text(document, indent=2)
+
+    def _by_mechanism(self) -> Iterator[tuple[str, list[Sequence[str]]]]:
+        """Yield each mechanism's name and its lines."""
+        for name in dict.fromkeys(row.mechanism for row in self.rows):
+            yield name, [row.cells for row in self.rows if row.mechanism == name]
+
+    def _note(self) -> str:
+        poses = {row.mechanism: row.hard.poses for row in self.rows}
+        note = NOTE.format(poses=", ".join(f"{count:,} ({name})" for name, count in poses.items()))
+        beside = any(row.source == RECORDED for row in self.rows)
+        return f"{note} {_BESIDE}" if beside else note
 
 
 def run(
@@ -181,15 +222,8 @@ def run(
         for scores in [_scores(mechanism, methods)]
         for entry in methods
     )
-    told = tuple(_further(one, times["", one.name, 0]) for one in more)
+    told = tuple(one.measured(times["", one.name, 0]) for one in more)
     return Result(this_machine(), measured_rows, date.today(), told)
-
-
-def _further(work: FurtherWork, nanos: float) -> FurtherMeasured:
-    errors = work.errors(work.tried)
-    worst = int(np.nan_to_num(errors, nan=np.inf).argmax())
-    at = tuple(number.hex() for number in work.tried[worst].tolist())
-    return FurtherMeasured(work.name, work.words, nanos, float(errors[worst]), at)
 
 
 def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:
@@ -201,9 +235,9 @@ def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:
 
 def _scores(mechanism: CaseSet, methods: Sequence[Entry]) -> dict[Solve, dict[str, Score]]:
     """Return each method's scores, by the name of the case."""
-    answers = {case.name: answer(case) for case in (mechanism.easy, *mechanism.hard)}
+    answers = {case.name: answer(case) for case in mechanism.cases}
     solves = dict.fromkeys(entry.solve for entry in methods)
-    return {solve: {name: score(solve, exact) for name, exact in answers.items()} for solve in solves}
+    return {solve: {name: exact.score(solve) for name, exact in answers.items()} for solve in solves}
 
 
 def _row(entry: Entry, times: Mapping[Row, float], scores: Mapping[str, Score]) -> Measured:
@@ -240,21 +274,6 @@ RECORDED = "recorded"
 _OURS = ("linkanim", "synthesis")
 
 
-def with_recorded(result: Result) -> Result:
-    """Return a result of this solver with the rows that the manual's table has of other methods."""
-    page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
-    table = page.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0]
-    poses = {row.mechanism: (row.easy.poses, row.hard.poses) for row in result.rows}
-    rows, mechanism = list(result.rows), ""
-    for line in table.splitlines():
-        name, *cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if name.startswith("**"):
-            mechanism = name.strip("*")
-        elif mechanism in poses and cells and not name.startswith(_OURS):
-            rows.append(_recorded(mechanism, name, cells, poses[mechanism]))
-    return replace(result, rows=tuple(rows))
-
-
 def _recorded(mechanism: str, name: str, cells: Sequence[str], poses: tuple[int, int]) -> Measured:
     """Return a row of the manual's table; an error above 1 is infinite."""
     times = [float(cell.replace(",", "")) if cell else None for cell in cells[:2]]
@@ -278,18 +297,6 @@ def _recorded(mechanism: str, name: str, cells: Sequence[str], poses: tuple[int,
 ORDERS = ("position", "velocity", "acceleration")
 
 
-def witnesses(result: Result) -> list[str]:
-    """Return where this solver's errors are worst, each with the command that prints it again."""
-    lines = []
-    for row in (row for row in result.rows if row.key == "batch"):
-        for order, what in enumerate(ORDERS):
-            told = [(case.errors[order], name, case.at[order]) for name, case in row.cases.items() if case.at]
-            if told:
-                error, name, at = max(told)
-                lines.append(_witness(f"{row.mechanism}: {name}", what, error, [at]))
-    return lines + [_witness(one.name, "error", one.error, one.at) for one in result.further]
-
-
 def _witness(name: str, what: str, error: float, at: Sequence[str]) -> str:
     return f"{what} {error:.1e}: linkanim bench --again {shlex.quote(name)} {' '.join(at)}"
 
@@ -299,7 +306,7 @@ def again(name: str, numbers: Sequence[float]) -> str:
 
     BadInput for the name of nothing, or for too few numbers.
     """
-    cases = {f"{kind.name}: {case.name}": case for kind in MECHANISMS for case in (kind.easy, *kind.hard)}
+    cases = {f"{kind.name}: {case.name}": case for kind in MECHANISMS for case in kind.cases}
     more = {work.name: work for work in further()}
     if name not in cases | more:
         raise BadInput(f"bench --again {name!r}: there are {', '.join(map(repr, [*cases, *more]))}")
@@ -309,11 +316,11 @@ def again(name: str, numbers: Sequence[float]) -> str:
     if name in more:
         (error,) = more[name].errors(np.array([numbers])).tolist()
         return f"error {error:.2e}"
-    scored = score(batch, answer(replace(cases[name], inputs=np.array(numbers))))
+    scored = answer(replace(cases[name], inputs=np.array(numbers))).score(batch)
     return ", ".join(f"{what} {error:.2e}" for what, error in zip(ORDERS, scored.errors, strict=True))
 
 
-# A result as a table for the terminal or the manual, and as JSON.
+# The words and numbers of the table.
 
 TITLES = (
     "method",
@@ -333,51 +340,7 @@ NOTE = (
 _BESIDE = "What is recorded was measured once, on the machine that `linkanim manual measurements` names."
 
 
-def as_text(result: Result) -> str:
-    """Return the machine and the tables in aligned columns."""
-    tables = [f"{name}\n{columns([TITLES, *rows])}" for name, rows in _by_mechanism(result)]
-    parts = [result.machine.line, *tables, _note(result), columns([FURTHER, *_further_lines(result)])]
-    return "\n\n".join([*parts, "\n".join(["worst errors", *witnesses(result)])])
-
-
-def as_markdown(result: Result) -> str:
-    """Return the manual's table, one mechanism after the other, with the machine of the measurement."""
-    blank = [""] * (len(TITLES) - 1)
-    rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
-    told = f"{_note(result)} Measured on {result.day} on {result.machine.line}.\n"
-    return f"{markdown([TITLES, *rows])}\n\n{told}"
-
-
 FURTHER = ("beyond one linkage's poses", "ns each", "worst error")
-
-
-def _further_lines(result: Result) -> list[Sequence[str]]:
-    return [(one.words, _time(one.ns), f"{one.error:.1e}") for one in result.further]
-
-
-def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:
-    """Yield each mechanism's name and its lines."""
-    for name in dict.fromkeys(row.mechanism for row in result.rows):
-        yield name, [_line(row) for row in result.rows if row.mechanism == name]
-
-
-def _note(result: Result) -> str:
-    poses = {row.mechanism: row.hard.poses for row in result.rows}
-    note = NOTE.format(poses=", ".join(f"{count:,} ({name})" for name, count in poses.items()))
-    beside = any(row.source == RECORDED for row in result.rows)
-    return f"{note} {_BESIDE}" if beside else note
-
-
-def _line(row: Measured) -> Sequence[str]:
-    times = (_time(row.ns_position), "" if row.ns_derivatives is None else _time(row.ns_derivatives))
-    return (
-        row.method,
-        *times,
-        _errors(row.easy),
-        _errors(row.hard),
-        f"{row.hard.wrong:,}",
-        f"{row.hard.nan:,}",
-    )
 
 
 def _time(nanos: float) -> str:
@@ -391,11 +354,3 @@ def _errors(score: Score) -> str:
     return ", ".join(
         "> 1" if error > 1 else f"{error:.1e}" for error in score.errors if not math.isnan(error)
     )
-
-
-def as_json(result: Result) -> str:
-    """Return one JSON object: the machine, and the rows with every case; null for a missing number."""
-    further = [asdict(row) for row in result.further]
-    rows = [asdict(row) for row in result.rows]
-    document = {"machine": result.machine._asdict(), "rows": rows, "further": further}
-    return json_text(document, indent=2)

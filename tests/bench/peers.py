@@ -42,8 +42,6 @@ from linkanim.bench.questions import (
     TurnStep,
     circle_dyad,
     joined,
-    joints_at,
-    point_on,
 )
 from linkanim.bench.reference import Solve
 from linkanim.mechanics.linkage import RRR
@@ -89,7 +87,7 @@ def closed(close: Close) -> Callable[[Question], Places]:
 
     def places(question: Question) -> Places:
         sides = question.sides
-        return joints_at(question.chain, question.angles, lambda dyad, at: close(dyad, at, sides[dyad.name]))
+        return question.chain.joints_at(question.angles, lambda dyad, at: close(dyad, at, sides[dyad.name]))
 
     return places
 
@@ -119,7 +117,7 @@ def _rates(
         if isinstance(step, TurnStep):
             found[step.name] = turning(step.ratio) * (at[step.name] - at[step.pivot])
         elif isinstance(step, FixedStep):
-            found[step.name] = point_on(step, found)
+            found[step.name] = step.place(found)
         else:
             found[step.name] = _rate(step, at, found, loads(step))
     return found
@@ -159,8 +157,7 @@ def newton(iterations: int) -> Callable[[Question], Places]:
         at = dict(question.start)
         for angle in question.angles.tolist():
             last = at
-            at = joints_at(
-                question.chain,
+            at = question.chain.joints_at(
                 angle,
                 lambda dyad, at: _improved(dyad, at, last[dyad.name], iterations),  # noqa: B023
                 cmath.exp,
@@ -220,7 +217,7 @@ def _integrated(question: Question) -> Iterator[dict[str, complex]]:
 
 def _with_dyads(chain: DyadChain, angle: float, state: list[complex]) -> dict[str, complex]:
     dyads = iter(state)
-    return joints_at(chain, angle, lambda dyad, at: next(dyads), cmath.exp)
+    return chain.joints_at(angle, lambda dyad, at: next(dyads), cmath.exp)
 
 
 def _slopes(chain: DyadChain, angle: float, state: list[complex]) -> list[complex]:
@@ -381,7 +378,7 @@ def fsolve(question: Question) -> Orders:
     def close(dyad: Dyad, at: Places) -> Any:
         return np.array([_found(dyad, at, row, before) for row in rows])
 
-    return (joints_at(question.chain, question.angles, close),)
+    return (question.chain.joints_at(question.angles, close),)
 
 
 def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> complex:
@@ -475,7 +472,7 @@ def _walked_entries(work: Callable[[int], Iterator[object]], count: int) -> Call
 def main(into: str) -> None:
     """Measure all rows of all linkages, print the manual's table and draw it."""
     found = result.run(rows=entries)
-    print(result.as_markdown(found))
+    print(found.as_markdown())
     print(drawing.draw(found, Path(into) / CHART), file=sys.stderr)
 
 

@@ -8,7 +8,7 @@ from mpmath import mp, workdps
 
 from linkanim.bench.questions import FOUR_BAR, MECHANISMS, TOGGLE, TURN, Case
 
-CASES = [(mechanism, case) for mechanism in MECHANISMS for case in (mechanism.easy, *mechanism.hard)]
+CASES = [(mechanism, case) for mechanism in MECHANISMS for case in mechanism.cases]
 NAMED = {case.name: case for case in FOUR_BAR.hard}
 
 

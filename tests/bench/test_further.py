@@ -10,11 +10,11 @@ import pytest
 from made_result import result
 
 from linkanim.bench import further
-from linkanim.bench.further import FurtherWork
+from linkanim.bench.further import FurtherMeasured, FurtherWork
 from linkanim.bench.methods import batch
 from linkanim.bench.questions import EASY, FOUR_BAR
-from linkanim.bench.reference import answer, score
-from linkanim.bench.result import FurtherMeasured, again, as_text, witnesses
+from linkanim.bench.reference import answer
+from linkanim.bench.result import again
 from linkanim.cli import main
 from linkanim.errors import BadInput
 
@@ -61,7 +61,7 @@ def test_one_error_alone_is_that_among_others(row: FurtherWork) -> None:
 
 def test_a_witness_of_the_table_prints_its_error_again(capsys: pytest.CaptureFixture[str]) -> None:
     (case,) = (one for one in FOUR_BAR.hard if one.name == "through two limits")
-    found = score(batch, answer(replace(case, inputs=case.inputs[::40])))
+    found = answer(replace(case, inputs=case.inputs[::40])).score(batch)
     assert len(found.at) == 3
     for what, error, at in zip(("position", "velocity", "acceleration"), found.errors, found.at, strict=True):
         assert main(["bench", "--again", "four-bar: through two limits", at]) == 0
@@ -73,10 +73,10 @@ def test_the_report_ends_in_the_worst_errors_and_their_commands() -> None:
     case = replace(made.rows[0].cases["a hard case"], at=("0x1p+0", "0x1p+1", "0x1p+2"))
     rows = (replace(made.rows[0], cases={"a hard case": case}), *made.rows[1:])
     more = FurtherMeasured("triad", "poses of a triad", 12.5, 3e-16, ("0x1.8p+0",))
-    lines = witnesses(replace(made, rows=rows, further=(more,)))
+    lines = replace(made, rows=rows, further=(more,)).witnesses()
     assert lines[0] == "position 8.5e-16: linkanim bench --again 'four-bar: a hard case' 0x1p+0"
     assert lines[-1] == "error 3.0e-16: linkanim bench --again triad 0x1.8p+0"
-    text = as_text(replace(made, rows=rows, further=(more,)))
+    text = replace(made, rows=rows, further=(more,)).as_text()
     assert re.search(r"poses of a triad +12\.5 +3\.0e-16", text)
     assert text.endswith(lines[-1])
 

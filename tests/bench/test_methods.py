@@ -22,7 +22,7 @@ from linkanim.bench.questions import (
     circle_dyad,
     degrees,
 )
-from linkanim.bench.reference import Answer, Solve, answer, score
+from linkanim.bench.reference import Answer, Solve, answer
 
 EPS = 2.0**-52
 HARD = [(mechanism, case) for mechanism in MECHANISMS for case in mechanism.hard]
@@ -65,7 +65,7 @@ def read(way: Read) -> Solve:
 def test_a_method_is_right_on_the_easy_cycle(
     solve: Solve, least: float, most: float, mechanism: CaseSet
 ) -> None:
-    found = score(solve, first_quarter(mechanism.name))
+    found = first_quarter(mechanism.name).score(solve)
     assert (found.poses, found.wrong, found.nan) == (90, 0, 0)
     assert least <= found.error <= most
     # Rates that are solved at the pose found are about as far off as it is.
@@ -73,7 +73,7 @@ def test_a_method_is_right_on_the_easy_cycle(
 
 
 def test_four_bars_each_of_its_own_lengths_are_closed_on_the_easy_cycle() -> None:
-    found = score(methods.each_its_own, first_quarter("four-bar"))
+    found = first_quarter("four-bar").score(methods.each_its_own)
     assert (found.poses, found.wrong, found.nan) == (90, 0, 0)
     assert found.error <= 16 * EPS
 
@@ -93,7 +93,7 @@ def test_a_row_tells_of_ten_thousand_different_linkages() -> None:
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda mechanism: mechanism.name)
 def test_other_packages_are_right_on_the_easy_cycle(solve: Solve, mechanism: CaseSet) -> None:
     pytest.importorskip("scipy" if solve is peers.fsolve else "pylinkage")
-    found = score(solve, answer(replace(mechanism.easy, inputs=degrees(0, 20))))
+    found = answer(replace(mechanism.easy, inputs=degrees(0, 20))).score(solve)
     assert (found.wrong, found.nan) == (0, 0)
     assert found.error < 1e-9
 
@@ -103,7 +103,7 @@ def test_other_packages_are_right_on_the_easy_cycle(solve: Solve, mechanism: Cas
 def test_this_solver_is_exact_on_the_hard_cases(mechanism: CaseSet, case: Case) -> None:
     posed = thinned(case)
     for solve in (methods.batch, methods.single):
-        found = score(solve, posed)
+        found = posed.score(solve)
         assert (found.wrong, found.nan) == (0, 0)
         assert found.error <= 16 * EPS
         assert all(not error > 64 * EPS for error in found.errors[1:])
@@ -116,7 +116,7 @@ def test_this_solver_is_exact_on_the_hard_cases(mechanism: CaseSet, case: Case) 
 def test_a_change_point_costs_the_closed_forms_half_the_poses(case: Case) -> None:
     posed = thinned(case)
     for close in (peers.half_angle_dyad, circle_dyad):
-        found = score(peers.rated(peers.closed(close)), posed)
+        found = posed.score(peers.rated(peers.closed(close)))
         assert found.wrong > found.poses / 3
 
 

@@ -16,7 +16,7 @@ from linkanim.mechanics.linkage import RRR
 CASES = [
     pytest.param(case, id=f"{mechanism.name}, {case.name}")
     for mechanism in MECHANISMS
-    for case in (mechanism.easy, *mechanism.hard)
+    for case in mechanism.cases
 ]
 SMOOTH = [
     case for mechanism in MECHANISMS for case in mechanism.hard if not case.by_angle and case.inputs[0] < 100

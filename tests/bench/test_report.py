@@ -22,7 +22,7 @@ from linkanim.export import columns
 
 
 def test_the_table_has_a_line_for_each_method_of_each_mechanism() -> None:
-    text = report.as_text(result())
+    text = result().as_text()
     assert text.startswith("A processor, 2 cores, Python 3.11.7, numpy 2.4.6 with X86_V3")
     four_bar, press = text.index("\nfour-bar\n"), text.index("\npress\n")
     lines = {line.split("  ")[0]: line.split() for line in text[four_bar:press].splitlines()}
@@ -39,7 +39,7 @@ def test_the_table_has_a_line_for_each_method_of_each_mechanism() -> None:
 )
 def test_times_have_three_digits(nanos: float, written: str) -> None:
     made = replace(result(), rows=(row("batch", nanos),))
-    assert f"| batch by name | {written} |" in report.as_markdown(made)
+    assert f"| batch by name | {written} |" in made.as_markdown()
 
 
 def test_columns_are_aligned() -> None:
@@ -47,7 +47,7 @@ def test_columns_are_aligned() -> None:
 
 
 def test_the_manual_s_table_is_markdown_with_its_machine() -> None:
-    head, rule, *body = report.as_markdown(result()).splitlines()
+    head, rule, *body = result().as_markdown().splitlines()
     assert head == f"| {' | '.join(report.TITLES)} |"
     assert rule.count("---:") == len(report.TITLES) - 1
     assert body[0].startswith("| **four-bar** |")
@@ -61,14 +61,14 @@ def test_the_manual_s_table_is_markdown_with_its_machine() -> None:
 def test_the_manual_shows_such_a_table_and_counts_the_hard_poses() -> None:
     page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
     shown = page.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0].splitlines()
-    assert shown[:2] == report.as_markdown(result()).splitlines()[:2]
+    assert shown[:2] == result().as_markdown().splitlines()[:2]
     for mechanism in MECHANISMS:
         assert any(line.startswith(f"| **{mechanism.name}** |") for line in shown)
         assert f"{sum(len(case.inputs) for case in mechanism.hard):,} ({mechanism.name})" in shown[-1]
 
 
 def test_beside_what_is_measured_stands_what_the_manual_s_table_has_of_other_methods() -> None:
-    found = report.with_recorded(result())
+    found = result().with_recorded()
     assert found.rows[: len(result().rows)] == result().rows
     recorded = {(one.mechanism, one.key): one for one in found.rows[len(result().rows) :]}
     assert {mechanism for mechanism, _ in recorded} == {"four-bar", "press"}, "those that are measured"
@@ -76,13 +76,13 @@ def test_beside_what_is_measured_stands_what_the_manual_s_table_has_of_other_met
     circles, newton = recorded["four-bar", "circle intersection"], recorded["press", "Newton, 1 iteration"]
     page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
     # as the manual has it, but for the name
-    assert report.as_markdown(replace(result(), rows=(circles,))).splitlines()[3] == next(
+    assert replace(result(), rows=(circles,)).as_markdown().splitlines()[3] == next(
         line for line in page.splitlines() if line.startswith("| circle intersection |")
     ).replace("circle intersection", "circle intersection (recorded)")
     assert newton.ns_derivatives is not None
     assert circles.hard.velocity_error == inf
-    assert "recorded was measured once" in report.as_text(found)
-    assert "recorded" not in report.as_text(result())
+    assert "recorded was measured once" in found.as_text()
+    assert "recorded" not in result().as_text()
 
 
 def test_each_method_of_the_manual_s_table_has_a_colour_of_its_own_in_the_chart() -> None:
@@ -93,7 +93,7 @@ def test_each_method_of_the_manual_s_table_has_a_colour_of_its_own_in_the_chart(
 
 
 def test_the_json_is_strict_and_whole() -> None:
-    found = json.loads(report.as_json(result()), parse_constant=pytest.fail)
+    found = json.loads(result().as_json(), parse_constant=pytest.fail)
     assert list(found) == ["machine", "rows", "further"]
     batch_row, newton, press = found["rows"]
     assert (batch_row["ns_position"], batch_row["ns_derivatives"]) == (9.31, 22.5)

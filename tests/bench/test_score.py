@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from linkanim.bench.questions import FOUR_BAR, Complexes, Orders, Question, degrees
-from linkanim.bench.reference import Answer, Score, answer, score, together
+from linkanim.bench.reference import Answer, Score, answer, together
 
 
 @pytest.fixture(scope="module")
@@ -22,14 +22,14 @@ def exact(posed: Answer) -> list[dict[str, Complexes]]:
 
 
 def test_the_exact_pose_has_the_error_of_its_rounding_only(posed: Answer) -> None:
-    found = score(lambda question: tuple(exact(posed)), posed)
+    found = posed.score(lambda question: tuple(exact(posed)))
     assert all(error < 2**-52 for error in found.errors)
     assert (found.poses, found.wrong, found.nan) == (4, 0, 0)
 
 
 def test_errors_are_in_longest_links_and_a_method_without_rates_has_none(posed: Answer) -> None:
     places = exact(posed)[0]
-    found = score(lambda question: ({**places, "B": places["B"] + 1e-3},), posed)
+    found = posed.score(lambda question: ({**places, "B": places["B"] + 1e-3},))
     assert found.error == pytest.approx(1e-5)
     assert math.isnan(found.errors[1])
     assert math.isnan(found.errors[2])
@@ -38,7 +38,7 @@ def test_errors_are_in_longest_links_and_a_method_without_rates_has_none(posed: 
 def test_a_rate_that_is_no_number_at_a_right_pose_is_unboundedly_wrong(posed: Answer) -> None:
     places, first, second = exact(posed)
     first["P"][2] = np.nan
-    assert score(lambda question: (places, first, second), posed).errors[1] > 1e300
+    assert posed.score(lambda question: (places, first, second)).errors[1] > 1e300
 
 
 def test_each_pose_is_counted_once(posed: Answer) -> None:
@@ -49,7 +49,7 @@ def test_each_pose_is_counted_once(posed: Answer) -> None:
         places["B"][3] += 1e-6
         return (places,)
 
-    found = score(mixed, posed)
+    found = posed.score(mixed)
     assert (found.poses, found.wrong, found.nan) == (4, 1, 1)
     assert found.error == pytest.approx(1e-8)
 
@@ -61,7 +61,7 @@ def test_a_pose_between_the_closures_is_wrong_near_the_other_one(
 ) -> None:
     places = exact(posed)[0]
     places["B"] = (1 - share) * posed.other["B"] + share * places["B"]
-    assert score(lambda question: (places,), posed).wrong == wrong
+    assert posed.score(lambda question: (places,)).wrong == wrong
 
 
 def test_closures_that_are_one_cannot_be_mistaken(posed: Answer) -> None:
@@ -69,14 +69,14 @@ def test_closures_that_are_one_cannot_be_mistaken(posed: Answer) -> None:
         places = exact(posed)[0]
         other = {"B": places["B"] + 100 * apart}
         places["B"] = other["B"]
-        found = score(lambda question, places=places: (places,), replace(posed, other=other))  # type: ignore[misc]
+        found = replace(posed, other=other).score(lambda question, places=places: (places,))  # type: ignore[misc]
         assert found.wrong == wrong
 
 
 def test_no_right_pose_has_no_error(posed: Answer) -> None:
     places = exact(posed)[0]
     places["B"] = posed.other["B"]
-    found = score(lambda question: (places,), posed)
+    found = posed.score(lambda question: (places,))
     assert math.isnan(found.error)
     assert found.wrong == 4
 
