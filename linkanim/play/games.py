@@ -128,37 +128,22 @@ def titled(chapter: str) -> str:
 # What games share: how they begin one another, and how one of several rows is chosen.
 
 
-class Chosen(NamedTuple):
-    """The row that is chosen now, and whether it is taken."""
-
-    row: int
-    taken: bool
-
-
-def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
-    """Return what an action chooses of `count` rows, `row` being chosen; None where it chooses nothing."""
+def chosen_by(action: Action, row: int, count: int) -> tuple[int, bool] | None:
+    """Return the row of `count` that an action chooses, and whether it is taken; None where none is."""
     match action:
         case Action("option", int() as place) if 0 <= place < count:
-            return Chosen(place, taken=True)
+            return place, True
         case Action("raise", int() as steps):
-            return Chosen((row + (-1 if steps > 0 else 1)) % count, taken=False)
+            return (row + (-1 if steps > 0 else 1)) % count, False
         case Action("next"):
-            return Chosen(row, taken=True)
+            return row, True
     return None
 
 
-class Door(NamedTuple):
-    """An entry of a menu: the name by which it is called, and its words."""
-
-    name: str
-    text: str
-    about: str
-
-
-def choices_of(doors: Iterable[Door]) -> tuple[Choice, ...]:
-    """Return the entries of a menu as a panel shows them, numbered."""
+def choices_of(doors: Iterable[tuple[str, str]]) -> tuple[Choice, ...]:
+    """Return the entries of a menu, its words and what it is about, as a panel shows them, numbered."""
     return tuple(
-        Choice(f"{n}", said_as("game", door.text), below=said(door.about)) for n, door in enumerate(doors, 1)
+        Choice(f"{n}", said_as("game", text), below=said(about)) for n, (text, about) in enumerate(doors, 1)
     )
 
 

@@ -13,7 +13,7 @@ from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
 from random import Random
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple, Self, TypeVar
 
 import numpy as np
 
@@ -55,17 +55,32 @@ class Worth(NamedTuple):
     links: float
     angle: float
 
+    @classmethod
+    def of(cls, joints: Linkage4, curve: DrawnCurve) -> Self:
+        """Return the worth of a four-bar for a curve.
 
-def worth(joints: Linkage4, curve: DrawnCurve) -> Worth:
-    """Return the worth of a four-bar for a curve.
+        `off` is the root mean square of the points' distances from the coupler curve; for a closed curve also
+        that of the coupler curve's points from the curve, whichever is larger; infinite where there is no
+        coupler curve.
+        """
+        row = np.array(joints.row)
+        *lengths, _ = FOUR_BAR.link_lengths(row[None])[0]
+        return cls(_off(joints, curve), float(np.sum(lengths) / curve.size), _least_angle(row))
 
-    `off` is the root mean square of the points' distances from the coupler curve; for a closed curve also
-    that of the coupler curve's points from the curve, whichever is larger; infinite where there is no coupler
-    curve.
-    """
-    row = np.array(joints.row)
-    *lengths, _ = FOUR_BAR.link_lengths(row[None])[0]
-    return Worth(_off(joints, curve), float(np.sum(lengths) / curve.size), _least_angle(row))
+    def shares(self, full: Worth) -> tuple[float, float, float]:
+        """Return how much of each full score a linkage earns, 0 to 1: by ratios for the first two."""
+        away = min(max(self.off / full.off, 1.0), _LOOSEST / full.off)
+        off = 1 - math.log(away) / math.log(_LOOSEST / full.off)
+        links = 1 - math.log(max(self.links / full.links, 1.0)) / math.log(_LARGEST)
+        return max(off, 0.0), max(links, 0.0), min(self.angle / full.angle, 1.0)
+
+    @property
+    def words(self) -> tuple[str, str, str]:
+        """Deviation, size and angle in words."""
+        off = said("far off")
+        if self.off < _LOOSEST:
+            off = said("{share} % off", share=significant(self.off, 2))
+        return off, said("{number} sizes", number=f"{self.links:.2f}"), f"{math.degrees(self.angle):.0f}°"
 
 
 def _off(joints: Linkage4, curve: DrawnCurve) -> float:
@@ -153,12 +168,12 @@ class Level:
     @cached_property
     def worth_of_answer(self) -> Worth:
         """The worth of the answer; the worst where there is no answer."""
-        return worth(self.answer, self.curve) if self.answer else Worth(math.inf, math.inf, 0.0)
+        return Worth.of(self.answer, self.curve) if self.answer else Worth(math.inf, math.inf, 0.0)
 
     @cached_property
     def _given(self) -> float:
         """How well the linkage follows the curve at the beginning of the level."""
-        return min(shares(worth(self.start, self.curve), self.full)[0], 0.99)
+        return min(Worth.of(self.start, self.curve).shares(self.full)[0], 0.99)
 
     def earned(self, reached: Worth) -> tuple[float, float, float]:
         """Return the share of each full score that a linkage earns, 0 to 1.
@@ -166,7 +181,7 @@ class Level:
         A linkage that follows no better than the one at the beginning earns nothing; size and angle count
         only in proportion to how well it follows.
         """
-        off, links, angle = shares(reached, self.full)
+        off, links, angle = reached.shares(self.full)
         gained = max(off - self._given, 0.0) / (1.0 - self._given)
         return gained, gained * links, gained * angle
 
@@ -278,7 +293,7 @@ def made(seed: int) -> Level:
     middle = complex(curve.mean())
     answer = Linkage4(*(100 * (place - middle) / size for place in joints))
     target = drawn(100 * (curve - middle) / size, closed=True)
-    best = worth(answer, target)
+    best = Worth.of(answer, target)
     full = Worth(1.5, 1.1 * best.links, best.angle - math.radians(3))
     return Level(
         f"seed-{seed}",
@@ -361,7 +376,7 @@ class MatchGame(Game):
     @property
     def judged(self) -> MatchGame:
         """The game with the worth of the joints as they are now."""
-        return replace(self, worth=worth(self.joints, self.of_level.curve))
+        return replace(self, worth=Worth.of(self.joints, self.of_level.curve))
 
     def carried(self, state: State, action: Action) -> State:
         """Drag a joint; run, step, undo; give up, or go on to another level."""
@@ -454,7 +469,7 @@ class MatchGame(Game):
         answer = level.earned(level.worth_of_answer)
         own = level.earned(self.worth)
         points = _earned(own)
-        known = zip(_NAMES, _worded(self.worth), points, own, answer, strict=True)
+        known = zip(_NAMES, self.worth.words, points, own, answer, strict=True)
         bars = tuple(
             ScoreBar(said(name), f"{text}   {some}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
             for name, text, some, share, mark in known
@@ -522,25 +537,9 @@ _BETTER = (to_say("a closer way"), to_say("smaller links"), to_say("a better tra
 """The words for a linkage that beats another one in each of the three."""
 
 
-def shares(reached: Worth, full: Worth) -> tuple[float, float, float]:
-    """Return how much of each full score a linkage earns, 0 to 1: by ratios for the first two."""
-    away = min(max(reached.off / full.off, 1.0), _LOOSEST / full.off)
-    off = 1 - math.log(away) / math.log(_LOOSEST / full.off)
-    links = 1 - math.log(max(reached.links / full.links, 1.0)) / math.log(_LARGEST)
-    return max(off, 0.0), max(links, 0.0), min(reached.angle / full.angle, 1.0)
-
-
 def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
     """Return shares of full scores in points."""
     return tuple(int(_POINTS * share + 1e-9) for share in three)
-
-
-def _worded(reached: Worth) -> tuple[str, str, str]:
-    """Return deviation, size and angle in words."""
-    off = said("far off")
-    if reached.off < _LOOSEST:
-        off = said("{share} % off", share=significant(reached.off, 2))
-    return off, said("{number} sizes", number=f"{reached.links:.2f}"), f"{math.degrees(reached.angle):.0f}°"
 
 
 def _is_sound(joints: Linkage4, level: Level) -> bool:
@@ -605,7 +604,7 @@ def read(words: GameWords) -> MatchGame:
     given = words.fields.get("joints")
     joints = _joints_of(given) if given else level.start
     best, gave_up = words.whole("best", 0, 0, 3 * _POINTS), words.whole("gave_up", 0, 0, 1)
-    return MatchGame(name, joints, worth(joints, level.curve), best, bool(gave_up))
+    return MatchGame(name, joints, Worth.of(joints, level.curve), best, bool(gave_up))
 
 
 def _joints_of(text: str) -> Linkage4:

@@ -14,7 +14,6 @@ from linkanim.picture.overlay import Overlay
 from linkanim.play.games import (
     ALL,
     LEVELS,
-    Door,
     GameWords,
     OverWhatRuns,
     begun,
@@ -68,11 +67,11 @@ class Menu(OverWhatRuns):
             return state.with_mode(replace(self, level=level))
         if (action.name, action.value) == ("option", len(rows)):
             return state.with_mode(replace(self, level=self.level % LEVELS[-1] + 1))
-        chosen = chosen_by(action, rows.index(self.chapter), len(rows))
-        if chosen is None:
+        row, taken = chosen_by(action, rows.index(self.chapter), len(rows)) or (None, False)
+        if row is None:
             return state
-        state = state.with_mode(replace(self, chapter=rows[chosen.row]))
-        return begun(state, "predict", chapter=rows[chosen.row], level=self.level) if chosen.taken else state
+        state = state.with_mode(replace(self, chapter=rows[row]))
+        return begun(state, "predict", chapter=rows[row], level=self.level) if taken else state
 
     def _rows(self, state: State) -> tuple[str, ...]:
         """Return what a round can be about: all chapters, one chapter, or the mechanism from before."""
@@ -124,11 +123,11 @@ def _scored(text: str) -> tuple[str, int]:
 
 # The choice of a game.
 
-OFFERS = (
-    Door("menu", "Predict", to_say("say what a linkage does before it moves")),
-    Door("match", "Match", to_say("drag a four-bar until it draws the dotted curve")),
-    Door("follow", "Follow", to_say("turn the crank to keep the ram between two lines")),
-)
+OFFERS = {
+    "menu": ("Predict", to_say("say what a linkage does before it moves")),
+    "match": ("Match", to_say("drag a four-bar until it draws the dotted curve")),
+    "follow": ("Follow", to_say("turn the crank to keep the ram between two lines")),
+}
 
 
 @frozen
@@ -146,18 +145,20 @@ class Lobby(OverWhatRuns):
         """Begin a game, choose one, or go back to the title."""
         if action.name == "back":
             return begun(state, "title")
-        chosen = chosen_by(action, self.row, len(OFFERS))
-        if chosen is None:
+        row, taken = chosen_by(action, self.row, len(OFFERS)) or (None, False)
+        if row is None:
             return state
-        state = state.with_mode(replace(self, row=chosen.row))
-        return begun(state, OFFERS[chosen.row].name) if chosen.taken else state
+        state = state.with_mode(replace(self, row=row))
+        return begun(state, [*OFFERS][row]) if taken else state
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the games."""
         hint = said("Enter begins   ↑ ↓ choose   Esc goes back")
         return replace(
             over,
-            listed=GamePanel(said_as("game", "Play"), choices=choices_of(OFFERS), hint=hint, chosen=self.row),
+            listed=GamePanel(
+                said_as("game", "Play"), choices=choices_of(OFFERS.values()), hint=hint, chosen=self.row
+            ),
         )
 
 
@@ -174,12 +175,12 @@ _TITLE_ABOUT = to_say("An arcade of planar linkages")
 _HINT = to_say("press any key   ↑ ↓ choose   O all mechanisms   Q quits")
 
 
-DOORS = (
-    Door("run", "Run", to_say("a mechanism")),
-    Door("build", "Build", to_say("draw a linkage on a sheet")),
-    Door("path", "Draw a path", to_say("and get linkages that follow it")),
-    Door("play", "Play", to_say("predict, match, follow")),
-)
+DOORS = {
+    "run": ("Run", to_say("a mechanism")),
+    "build": ("Build", to_say("draw a linkage on a sheet")),
+    "path": ("Draw a path", to_say("and get linkages that follow it")),
+    "play": ("Play", to_say("predict, match, follow")),
+}
 _IGNORED = frozenset({"scrub", "point", "move", "pull"})
 """Actions of a moving mouse, which do not leave the title: a click does."""
 _HELD: Mapping[str, Callable[[State, Any], State]] = {"grab": grab, "carry": carry, "drop": drop}
@@ -200,7 +201,7 @@ class Title(Game):
     @property
     def words(self) -> str:
         """The words that begin it again."""
-        return f"title door={DOORS[self.door].name}" + ("" if self.place is None else f" place={self.place}")
+        return f"title door={[*DOORS][self.door]}" + ("" if self.place is None else f" place={self.place}")
 
     def entered(self, state: State) -> State:
         """Return the state with a mechanism running, and nothing on it but its sentence."""
@@ -219,7 +220,7 @@ class Title(Game):
         if action.name == "shelf":
             return shelving.toggle(leave(state), None)
         if action.name == "pencil":
-            return _through(state, [door.name for door in DOORS].index("path"))
+            return _through(state, [*DOORS].index("path"))
         if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):
             return state
         door, taken = chosen_by(action, self.door, len(DOORS)) or (self.door, True)
@@ -234,12 +235,12 @@ class Title(Game):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the name and the doors."""
-        run, *others = DOORS
-        run = run._replace(about=state.beneath.scene.title) if state.beneath else run
+        (run, mechanism), *others = DOORS.values()
+        mechanism = state.beneath.scene.title if state.beneath else mechanism
         panel = GamePanel(
             _NAME,
             lines=(said(_TITLE_ABOUT),),
-            choices=choices_of((run, *others)),
+            choices=choices_of([(run, mechanism), *others]),
             subject=said(state.scene.title),
             lines_after=(said(state.scene.look_at),),
             hint=said(_HINT),
@@ -251,7 +252,7 @@ class Title(Game):
 
 def _through(state: State, door: int) -> State:
     """Go through a door, which will be the first one the next time."""
-    name = DOORS[door].name
+    name = [*DOORS][door]
     state = with_effect(state, "score", f"door={name}")
     if name == "play":
         return begun(state, "lobby")
@@ -266,7 +267,7 @@ def _through(state: State, door: int) -> State:
 
 def read_title(words: GameWords) -> Title:
     """Return the title that words begin; BadInput where they do not."""
-    names = [door.name for door in DOORS]
+    names = [*DOORS]
     door = words.text("door")
     place = words.whole("place", 0, 0, 10_000) if "place" in words.fields else None
     return Title(names.index(door) if door in names else 0, place)

@@ -73,7 +73,7 @@ def _of_tables() -> Iterator[Sentence]:
     for name, toggle in TOGGLES.items():
         for words in (toggle.title, *toggle.answers):
             yield Sentence(None, words, None, f"TOGGLES[{name!r}]")
-    yield from (Sentence("game", door.text, None, "DOORS") for door in (*DOORS, *OFFERS))
+    yield from (Sentence("game", text, None, "DOORS") for text, _ in (*DOORS.values(), *OFFERS.values()))
     yield from (Sentence(None, kind, None, "KINDS") for kind in KINDS)
     for name in level_names():
         level = level_of(name)

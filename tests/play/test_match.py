@@ -20,7 +20,7 @@ from linkanim.errors import BadInput
 from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
-from linkanim.play.match import MatchGame, level_names, level_of, made, shares, trace, worth
+from linkanim.play.match import MatchGame, Worth, level_names, level_of, made, trace
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import State, begin
@@ -97,10 +97,10 @@ def test_every_level_is_solved_by_its_tape_with_full_score(name: str) -> None:
 def test_every_level_is_solved_by_its_answer_which_can_be_beaten(name: str) -> None:
     level = level_of(name)
     assert level.answer
-    found = worth(level.answer, level.curve)
+    found = Worth.of(level.answer, level.curve)
     assert found.off <= level.full.off
     # two scores pull away from it: neither is what the solver looks for
-    exact, *others = shares(found, level.full)
+    exact, *others = found.shares(level.full)
     assert exact == 1.0
     assert max(others) < 1.0
     for joint in level.fixed:
@@ -178,14 +178,14 @@ def test_a_linkage_is_its_joints() -> None:
 # off, size of links and angle of linkages whose worth is known otherwise
 def test_a_point_on_the_crank_draws_the_circle_exactly() -> None:
     joints = Linkage4(0j, 50 + 0j, 140 + 100j, 160 + 0j, 50 + 0j)
-    found = worth(joints, CIRCLE)
+    found = Worth.of(joints, CIRCLE)
     assert found.off < 0.1  # the distance of a circle from its chords
     assert found.links == pytest.approx(sum(abs(b - a) for a, b in pairwise((*joints[:4], 0j))) / CIRCLE.size)
 
 
 def test_what_swings_has_no_transmission_angle_and_comes_back_on_the_other_closure() -> None:
     joints = Linkage4(0j, 80 + 0j, 60 + 80j, 100 + 0j, 40 + 60j)
-    found, line = worth(joints, CIRCLE), trace(joints)
+    found, line = Worth.of(joints, CIRCLE), trace(joints)
     assert found.angle == 0.0
     assert line[0] == line[-1]
     scene = on(
@@ -301,7 +301,7 @@ def test_a_better_score_is_kept(player: Player) -> None:
 def test_a_level_made_from_a_seed_is_solved_by_its_answer(seed: int) -> None:
     level = made(seed)
     assert level.answer
-    assert shares(level.worth_of_answer, level.full) == (1.0, 1.0, 1.0)
+    assert level.worth_of_answer.shares(level.full) == (1.0, 1.0, 1.0)
     assert level.curve.size == pytest.approx(100, rel=0.02)
     again = made(seed)
     assert (again.curve.points == level.curve.points).all()

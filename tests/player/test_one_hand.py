@@ -525,7 +525,7 @@ def test_two_gestures_after_the_title_something_moves_or_asks(
         player = Player(carried(state, Action("play", "title")), keeper=keeper)
         player.tick(30)
         hand = kind(player)
-        hand.option([one.name for one in TITLE_DOORS].index(door))
+        hand.option([*TITLE_DOORS].index(door))
         player.tick(20)
         second(hand)
         player.tick(60)
