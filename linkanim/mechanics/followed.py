@@ -45,6 +45,6 @@ class FollowedGroup(LinkGroup):
                 square = apart[second] ** 2
                 turn = way.position.cross(way.velocity) / square
                 bent = way.position.cross(way.acceleration) / square
-                walk.add_piece(Slope(turn, bent), (first, second), way.position)
+                walk.add_body(Slope(turn, bent), (first, second), way.position)
         for slide in self.own_slides:
             walk.travels[slide.point] = read(slide.name)

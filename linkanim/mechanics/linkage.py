@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field, replace
 from fractions import Fraction
 from functools import cached_property, reduce
+from itertools import repeat
 from typing import Any, ClassVar, NamedTuple, Self
 
 from linkanim.errors import BadInput
@@ -44,12 +45,12 @@ class Stated:
     @property
     def stated_lengths(self) -> tuple[float, ...]:
         """All its lengths, of either sign."""
-        return tuple(length for name in self.sized for length in _lengths_in(getattr(self, name)))
+        return tuple(_lengths_in(self, "stated_lengths"))
 
     @property
     def all_lengths(self) -> tuple[float, ...]:
         """All its lengths, those twice that are known in two ways, in the order of `with_lengths`."""
-        return tuple(length for name in self.sized for length in _all_in(getattr(self, name)))
+        return tuple(_lengths_in(self, "all_lengths"))
 
     def with_lengths(self, lengths: Iterator[Any]) -> Self:
         """Return the same value with other lengths, or with values that stand for them."""
@@ -57,21 +58,18 @@ class Stated:
 
     def scaled(self, factor: float) -> Self:
         """Return the same value with every length multiplied by a factor."""
-        return replace(self, **{name: _times(getattr(self, name), factor) for name in self.sized})  # type: ignore[type-var]
+        return self.with_lengths(length * factor for length in self.all_lengths)
 
 
-def _lengths_in(value: Any) -> Iterator[float]:
-    if isinstance(value, tuple):
-        yield from (length for part in value for length in _lengths_in(part))
-    elif value is not None:
-        yield from value.stated_lengths if isinstance(value, Stated) else (value,)
-
-
-def _all_in(value: Any) -> Iterator[float]:
-    if isinstance(value, tuple):
-        yield from (length for part in value for length in _all_in(part))
-    elif value is not None:
-        yield from value.all_lengths if isinstance(value, Stated) else (value,)
+def _lengths_in(of: Stated, which: str) -> Iterator[float]:
+    """Yield the lengths in a value's fields, and of the values there the lengths that `which` names."""
+    waiting = [getattr(of, name) for name in reversed(of.sized)]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, tuple):
+            waiting += reversed(value)
+        elif value is not None:
+            yield from getattr(value, which) if isinstance(value, Stated) else (value,)
 
 
 def _anew(value: Any, lengths: Iterator[Any]) -> Any:
@@ -80,14 +78,6 @@ def _anew(value: Any, lengths: Iterator[Any]) -> Any:
     if value is None:
         return None
     return value.with_lengths(lengths) if isinstance(value, Stated) else next(lengths)
-
-
-def _times(value: Any, factor: float) -> Any:
-    if isinstance(value, tuple):
-        return tuple(_times(part, factor) for part in value)
-    if value is None:
-        return None
-    return value.scaled(factor) if isinstance(value, Stated) else value * factor
 
 
 @frozen
@@ -1141,7 +1131,7 @@ class Linkage(Stated):
     @cached_property
     def unsized(self) -> Linkage:
         """The linkage with every length 0, which is equal for linkages that differ in lengths alone."""
-        return self.scaled(0.0)
+        return self.with_lengths(repeat(0.0))
 
     @cached_property
     def rigid_bodies(self) -> tuple[RigidBody, ...]:

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import islice
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -377,26 +377,22 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
 # What joints, guides and gears carry, of a linkage with forces.
 
 
-class _Carriers(NamedTuple):
-    """What carries forces: the bodies that meet in each joint, what slides, geared cranks and if by teeth."""
-
-    joints: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    guides: tuple[str, ...] = ()
-    gears: tuple[tuple[str, bool], ...] = ()
+_Carriers = tuple[tuple[tuple[str, tuple[str, ...]], ...], tuple[str, ...], tuple[tuple[str, bool], ...]]
+"""What carries forces: the bodies that meet in each joint, what slides, geared cranks and if by teeth."""
 
 
 def _carriers(linkage: Linkage) -> _Carriers:
     """Return what carries forces, nothing of a linkage without any."""
     if not linkage.reacting:
-        return _Carriers()
-    return _Carriers(tuple(meeting(linkage).items()), guided(linkage), tuple(meshing(linkage).items()))
+        return (), (), ()
+    return tuple(meeting(linkage).items()), guided(linkage), tuple(meshing(linkage).items())
 
 
 def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) -> Iterator[Quantity]:
     """Yield the force of each joint on each body, those of guides and gears, and that on the ground."""
     if not linkage.reacting:
         return
-    order = force_order(linkage)
+    order, (meetings, guides, gears) = force_order(linkage), carriers
     labels = {GROUND: "1", **link_labels(linkage)}
     words = {body.name: called(body, names) for body in linkage.bodies} | {GROUND: said("Ground")}
 
@@ -404,12 +400,12 @@ def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) 
         usual = said("Bar {name}", name=body) if "–" in body else _begun(name_said(body))
         return words.get(body, usual)
 
-    for joint, bodies in carriers.joints:
+    for joint, bodies in meetings:
         for body in bodies:
             index, read = f"{joint},{labels.get(body, body)}", partial(_in_joint, joint=joint, body=body)
             told = whose(body), said("force in {joint}", joint=joint)
             yield from _pull(f"{body}.{joint}.force", index, told, order, ("reactions", joint, body), read)
-    for name in carriers.guides:
+    for name in guides:
         for kind, symbol, unit, measure in (
             ("force", "N", "N", said("force of its guide")),
             ("moment", "M", "N m", said("moment of its guide")),
@@ -417,7 +413,7 @@ def _of_forces(linkage: Linkage, names: Mapping[str, str], carriers: _Carriers) 
             guide = f"{name}.guide_{kind}", indexed(symbol, labels.get(name, name)), whose(name), measure
             read = partial(_in_guide, name=name, kind=kind)
             yield Quantity(*guide, unit, order, read, path=("guides", name, kind))
-    for name, toothed in carriers.gears:
+    for name, toothed in gears:
         for kind in ("tangential", "radial") if toothed else ():
             teeth = f"{name}.{kind}_force", f"F_{{g{name}{kind[0]}}}", name, said(_OF_TEETH[kind])
             read = partial(_in_gear, name=name, kind=kind)

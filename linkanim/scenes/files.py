@@ -51,7 +51,9 @@ def titles() -> Mapping[str, str]:
 @cache
 def title_of(name: str) -> str:
     """Return the title of a catalogue scene."""
-    return str(parse(_catalogue_text(name), name)["title"])
+    path = catalogued(name)
+    assert path is not None
+    return str(parse(path.read_text(encoding="utf-8"), name)["title"])
 
 
 class PublishedTable(NamedTuple):
@@ -92,10 +94,11 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
 
     text, path = os.fspath(name_or_path), path_of(name_or_path)
     if path is None:
-        if chapter_of(text) is None:
+        path = catalogued(text)
+        if path is None:
             near = meant(text, names())
             raise BadInput(f"no scene is called {shown(text)}{near}; `linkanim scenes` lists them")
-        return scene_from(parse(_catalogue_text(text), text), name=text, where=text)
+        return scene_from(parse(path.read_text(encoding="utf-8"), text), name=text, where=text)
     where = intake.named(text)
     missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
     document = parse(SCENE_FILE.read(path, where, missing=missing), where)
@@ -188,9 +191,10 @@ def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:
     return None if named and not text.lower().endswith(".toml") else Path(text)
 
 
-def _catalogue_text(name: str) -> str:
-    folder = (chapter_of(name) or "").replace(" ", "-")
-    return _text(f"catalogue/{folder}/{name}.toml")
+def catalogued(name: str) -> Path | None:
+    """Return the file of a catalogue scene, which lies in its chapter's folder; None for any other name."""
+    chapters_there = (Path(__file__).parent / "catalogue").iterdir()
+    return next((path for folder in chapters_there if (path := folder / f"{name}.toml").is_file()), None)
 
 
 def _text(path: str) -> str:

@@ -12,7 +12,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import hypot, pi
 from typing import Any, NamedTuple
@@ -21,7 +21,6 @@ from linkanim import units
 from linkanim.bounds import MOST_PROBLEMS
 from linkanim.errors import AssemblyError, BadInput, DyadAtLimit, EndsError
 from linkanim.mechanics.angles import unit
-from linkanim.mechanics.groups import GroupPoint
 from linkanim.mechanics.linkage import (
     RRP,
     RRR,
@@ -100,16 +99,19 @@ Stated = Mapping[str, Joint | None]
 """Joints by their names, None where one has a fault."""
 
 
-def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> Table:
+def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated, group: Sequence[str] = ()) -> Table:
     """Return the file's table with its sound joints known, in solved order: a shorthand's and the file's.
 
-    A joint that depends on a joint with a fault is left out, and not checked further.
+    A joint that depends on a joint with a fault is left out, and not checked further. Joints of a `group`
+    stand together.
     """
     stated = _together(top, expanded, pins, moving)
     for name in moving:
         joint = stated[name]
         stated[name] = joint and top.attempt(_with_fit_references, top, joint, stated)
-    order = _with_group_together(stated, _solved_order(stated))
+    order = _solved_order(stated)
+    if group:
+        order = _with_group_together(stated, order, group)
     if len(order) < len(stated):
         first, *others = _circle(stated, stated.keys() - set(order))
         chain = " -> ".join([first, *others[:12], *["..."] * (len(others) > 12)])
@@ -194,10 +196,9 @@ def _solved_order(stated: Stated) -> list[str]:
     return list(order)
 
 
-def _with_group_together(stated: Stated, order: list[str]) -> list[str]:
+def _with_group_together(stated: Stated, order: list[str], group: Sequence[str]) -> list[str]:
     """Return the order with the joints of a group one after the other, and then what hangs on them."""
-    points = (joint.group.points for joint in stated.values() if isinstance(joint, GroupPoint))
-    group = [name for name in next(points, ()) if name in order]
+    group = [name for name in group if name in order]
     behind = {*group}
     for name in order:
         if (joint := stated[name]) and not joint.grouped and behind & {*joint.needs}:
@@ -315,7 +316,7 @@ def read(
     where: str,
     goal: Scene | None = None,
     check: Check | None = None,
-    group: tuple[GroupPoint, ...] = (),
+    group: tuple[Joint, ...] = (),
     together: bool = False,
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene that a document describes, None where it describes none, and all its problems.
@@ -491,7 +492,7 @@ def _with_motors(top: Table, short: Expansion) -> Table:
     return replace(top, context=context)
 
 
-def _opened(document: Mapping[str, Any], where: str, group: tuple[GroupPoint, ...] = ()) -> Table:
+def _opened(document: Mapping[str, Any], where: str, group: tuple[Joint, ...] = ()) -> Table:
     """Return the file's table with its unit and its joints' names known; add unknown keys to the problems."""
     top = Table(where, document)
     unit = _part(top, "length_unit") or "mm"
@@ -516,7 +517,7 @@ def _shorthand_names(top: Table) -> list[str]:
     return [name for key, table in tables for name in names_of(key, table)]
 
 
-def _with_joints(top: Table, group: tuple[GroupPoint, ...]) -> tuple[Table, Expansion]:
+def _with_joints(top: Table, group: tuple[Joint, ...]) -> tuple[Table, Expansion]:
     """Return the file's table with its sound joints and a group's known, and its shorthand's meaning."""
     pins = _part(top, "ground") or {}
     short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
@@ -529,7 +530,8 @@ def _with_joints(top: Table, group: tuple[GroupPoint, ...]) -> tuple[Table, Expa
     if short:
         expanded = {joint.name: joint for joint in short.joints}
     expanded |= {point.name: point for point in group}
-    return solved(top, expanded, pins, moving), short or Expansion()
+    known = solved(top, expanded, pins, moving, [point.name for point in group])
+    return known, short or Expansion()
 
 
 def _expansion(top: Table, o2: Pin | None) -> Expansion | None:

@@ -519,25 +519,20 @@ AT_ITS_LIMIT = (
 )
 
 
-@frozen
-class Piece:
-    """How one rigid body turns, and the vectors between its joints that closing them gave."""
-
-    turning: Slope = field(default_factory=lambda: Slope(0.0))
-    arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
-
-
 class Walk:
     """What has been found so far; joints add themselves to it in their order.
 
-    `pieces` stand in the order of the linkage's rigid bodies. Where a joint is the `mover`, everything before
+    Turnings and arms stand in the order of the linkage's rigid bodies. Where a joint is the `mover`, everything before
     it stands still, and rates are those by its own way.
     """
 
     def __init__(self, assembly: Assembly, state: InputState, mover: str = "") -> None:
         self.assembly, self.state, self.mover = assembly, state, mover
         self.points: dict[str, MovingPoint] = {}
-        self.pieces = [Piece()]
+        self.turnings = [Slope(0.0)]
+        """How each rigid body turns."""
+        self.arms: list[dict[tuple[str, str], Vec]] = [{}]
+        """The vectors between the joints of each that closing them gave."""
         self.travels: dict[str, Moving] = {}
         self.closings: dict[str, Closing] = {}
         """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
@@ -579,9 +574,10 @@ class Walk:
         ratio = float(gearing.ratio)
         return Slope(self.state.rate * ratio, self.state.second * ratio)
 
-    def add_piece(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
+    def add_body(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
         """Add the bar between two joints; `arm` is the vector from the first to the second."""
-        self.pieces.append(Piece(turning, {ends: arm}))
+        self.turnings.append(turning)
+        self.arms.append({ends: arm})
 
     def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
         """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
@@ -637,7 +633,7 @@ class Walk:
         frames = enumerate(linkage.rigid_bodies)
         n, pin = next((n, pin) for n, one in frames if name in one and (pin := linkage.pivot(one)))
         pivot, turning = self.points[pin], Slope(1.0)
-        self.pieces[n] = Piece(turning, self.pieces[n].arms)
+        self.turnings[n] = turning
         self.points[name] = pivot + carried(place - pivot.position, turning)
 
     def _why_not(self, name: str, closing: Closing) -> str:
@@ -656,38 +652,39 @@ class Walk:
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
         n = holding(self.linkage.rigid_bodies, on) or 0
-        piece, length = self.pieces[n], self._length(n, on)
-        arm = self._arm(piece, *on).times(Vec(at[0] / length, at[1] / length))
+        length = self._length(n, on)
+        arm = self._arm(n, *on).times(Vec(at[0] / length, at[1] / length))
         if name is not None:
-            piece.arms[on[0], name] = arm
-        return self.points[on[0]] + carried(arm, piece.turning)
+            self.arms[n][on[0], name] = arm
+        return self.points[on[0]] + carried(arm, self.turnings[n])
 
     def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
         """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
         n = holding(self.linkage.rigid_bodies, on) or 0
-        return self._arm(self.pieces[n], *on).scaled(1.0 / self._length(n, on)), self.pieces[n].turning
+        return self._arm(n, *on).scaled(1.0 / self._length(n, on)), self.turnings[n]
 
     def _length(self, n: int, ends: tuple[str, str]) -> Value:
         """Return how far two joints of one body are apart: as known, or worked out in many digits."""
         if self.exact or self.assembly.of_inputs:
             one, other = (dict(self.linkage.joint(end).bars) for end in ends)
             bar = None if self.exact else one.get(ends[1], other.get(ends[0]))
-            arm = self._arm(self.pieces[n], *ends)
+            arm = self._arm(n, *ends)
             return sqrt(arm.dot(arm)) if bar is None else bar
         start, end = (self.linkage.rigid_bodies[n][name] for name in ends)
         return abs(end - start)
 
-    def _arm(self, piece: Piece, start: str, end: str) -> Vec:
+    def _arm(self, n: int, start: str, end: str) -> Vec:
         """Return the vector from one joint of a rigid body to another."""
-        if (start, end) in piece.arms:
-            return piece.arms[start, end]
-        if (end, start) in piece.arms:
-            return -piece.arms[end, start]
+        arms = self.arms[n]
+        if (start, end) in arms:
+            return arms[start, end]
+        if (end, start) in arms:
+            return -arms[end, start]
         return self.points[end].position - self.points[start].position
 
     def turning_of(self, names: tuple[str, ...]) -> Slope:
         """Return how the rigid body turns that has all these joints."""
-        return self.pieces[holding(self.linkage.rigid_bodies, names) or 0].turning
+        return self.turnings[holding(self.linkage.rigid_bodies, names) or 0]
 
 
 def refuse_loose(linkage: Linkage) -> None:
@@ -797,7 +794,7 @@ def place_crank(crank: Crank, walk: Walk) -> None:
     arm = Vec(along, squares.product)
     pace = walk.pace(gearing)
     walk.points[crank.name] = walk.points[crank.pivot] + carried(arm, pace)
-    walk.add_piece(pace, (crank.pivot, crank.name), arm)
+    walk.add_body(pace, (crank.pivot, crank.name), arm)
 
 
 def place_slider(slider: DrivenSlider, walk: Walk) -> None:
@@ -842,7 +839,7 @@ def close_bars(joint: RRR, walk: Walk) -> None:
     walk.points[joint.name], *bars = _meet(p, q, lengths, triangle)
     ends = zip((first, second), bars, strict=True)
     for end, (turning, arm) in reversed([*ends]) if swapped else ends:
-        walk.add_piece(turning, (end, joint.name), arm)
+        walk.add_body(turning, (end, joint.name), arm)
 
 
 def _turned(joint: RRR, swapped: bool) -> tuple[tuple[str, str], tuple[float, float]]:
@@ -911,7 +908,7 @@ def close_slider(joint: RRP, walk: Walk) -> None:
     walk.points[joint.name] = rail.place(travel)
     walk.travels[joint.name], walk.levers[joint.name] = travel, q
     arm = rail.along.scaled(q) - rail.along.left().scaled(aside.value)
-    walk.add_piece(rail.turning.plus(-rho.value, -rho.rate), (joint.end, joint.name), arm)
+    walk.add_body(rail.turning.plus(-rho.value, -rho.rate), (joint.end, joint.name), arm)
 
 
 def _slider_root(joint: RRP, walk: Walk, aside: Moving) -> SignedRoot:
@@ -961,7 +958,7 @@ def close_slot(joint: RPR, walk: Walk) -> None:
     turning = _turning_kinds(turn, root, joint.offset) if joint.offset else turn
     arm = direction.scaled(joint.length)
     walk.points[joint.name] = pivot + carried(arm, turning)
-    walk.add_piece(turning, (joint.pivot, joint.name), arm)
+    walk.add_body(turning, (joint.pivot, joint.name), arm)
 
 
 def slot_name(joint: RPR, assembly: Assembly) -> str:
