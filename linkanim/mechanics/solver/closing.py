@@ -522,8 +522,8 @@ AT_ITS_LIMIT = (
 class Walk:
     """What has been found so far; joints add themselves to it in their order.
 
-    Turnings and arms stand in the order of the linkage's rigid bodies. Where a joint is the `mover`, everything before
-    it stands still, and rates are those by its own way.
+    Turnings and arms stand in the order of the linkage's rigid bodies. Where a joint is the `mover`,
+    everything before it stands still, and rates are those by its own way.
     """
 
     def __init__(self, assembly: Assembly, state: InputState, mover: str = "") -> None:
