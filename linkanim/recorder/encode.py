@@ -19,14 +19,13 @@ from contextlib import contextmanager, suppress
 from fractions import Fraction
 from pathlib import Path
 from threading import Event, Semaphore, Thread
-from typing import IO, TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, NamedTuple
 
 from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim import child
 from linkanim.bounds import MOST_FRAMES
 from linkanim.errors import RecordingFailed
-from linkanim.frozen import frozen
 from linkanim.recorder.plan import Format
 
 if TYPE_CHECKING:
@@ -276,47 +275,60 @@ _TELLING = ("-stats_enc_post", "pipe:1", "-stats_enc_post_fmt", "{n}")
 _EXACT = ("-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact")
 
 
-@frozen
-class Stream:
-    """Raw frames as they come: width and height in pixels, frames a second, whether alpha counts."""
+class Stream(NamedTuple):
+    """Raw frames, and the format they become: width and height, frames a second, whether alpha counts."""
 
+    form: Format
     size: tuple[int, int]
     rate: Fraction
     alpha: bool = False
 
+    def coding(self, palette: Sequence[Colour]) -> Callable[[Frame], Frame]:
+        """Return the function that turns a frame into the bytes that `encoding` takes; a GIF's are indices.
 
-def coding(stream: Stream, form: Format, palette: Sequence[Colour]) -> Callable[[Frame], Frame]:
-    """Return the function that turns a frame into the bytes that `encoding` takes; a GIF's are indices.
+        `palette` has a GIF's colours, 255 at most. The bytes returned may be overwritten by those of the next
+        frame.
+        """
+        if self.form != "gif":
+            return lambda frame: frame
+        from linkanim.recorder.palette import Indexing
 
-    `palette` has a GIF's colours, 255 at most. The bytes returned may be overwritten by those of the next
-    frame.
-    """
-    if form != "gif":
-        return lambda frame: frame
-    from linkanim.recorder.palette import Indexing
+        return Indexing(palette, math.prod(self.size), alpha=self.alpha)
 
-    return Indexing(palette, math.prod(stream.size), alpha=stream.alpha)
+    @property
+    def coded_size(self) -> int:
+        """The number of bytes of a coded frame."""
+        pixels = math.prod(self.size)
+        return pixels + 4 * COLOURS if self.form == "gif" else 4 * pixels
 
+    @contextmanager
+    def encoding(self, part: Path) -> Iterator[Callable[[Frame], None]]:
+        """Give a function that takes coded frames, one after the other, and have them encoded into `part`.
 
-def coded_size(stream: Stream, form: Format) -> int:
-    """Return the number of bytes of a coded frame."""
-    pixels = math.prod(stream.size)
-    return pixels + 4 * COLOURS if form == "gif" else 4 * pixels
+        `part` is a file, for PNG a folder that gets 0001.png, .... A frame's bytes may be reused once the
+        call returns. When the block ends, the encoder has finished; after an exception it is ended.
+        `RecordingFailed` where the encoder cannot be started, stops early or reports an error.
+        """
+        ahead, settings = _AHEAD.get(self.form, _USUAL), None
+        if self.is_large and self.form != "webp":
+            ahead, settings = _AHEAD_OF_LARGE, _GIVING_BACK
+        with running(self._command(part), ahead=ahead, settings=settings) as write:
+            yield write
 
+    @property
+    def is_large(self) -> bool:
+        """Whether few frames are held at once."""
+        return math.prod(self.size) > _LARGE
 
-@contextmanager
-def encoding(stream: Stream, form: Format, part: Path) -> Iterator[Callable[[Frame], None]]:
-    """Give a function that takes coded frames, one after the other, and have them encoded into `part`.
-
-    `part` is a file, for PNG a folder that gets 0001.png, .... A frame's bytes may be reused once the call
-    returns. When the block ends, the encoder has finished; after an exception it is ended. `RecordingFailed`
-    where the encoder cannot be started, stops early or reports an error.
-    """
-    ahead, settings = _AHEAD.get(form, _USUAL), None
-    if _is_large(stream) and form != "webp":
-        ahead, settings = _AHEAD_OF_LARGE, _GIVING_BACK
-    with running(_command(stream, form, part), ahead=ahead, settings=settings) as write:
-        yield write
+    def _command(self, part: Path) -> list[str]:
+        width, height = self.size
+        pixels = "pal8" if self.form == "gif" else "bgra" if self.alpha else "bgr0"
+        # without a tag the decoder copies indices byte by byte; with it, rows must be multiples of 4 bytes
+        tag = "-tag:v BIT8" if self.form == "gif" and width % 4 == 0 else ""
+        raw = f"-f rawvideo {tag} -pix_fmt {pixels} -s {width}x{height} -framerate {self.rate} -i pipe:0"
+        into = [*_CODERS[self.form](self), _numbered(part) if self.form == "png" else f"file:{part}"]
+        quiet = ["-hide_banner", "-nostdin", "-loglevel", "error", "-y"]
+        return [ffmpeg(), *quiet, *raw.split(), *into[:-1], *_EXACT, *_TELLING, into[-1]]
 
 
 def count_frames(part: Path, form: Format) -> int:
@@ -357,21 +369,6 @@ def ffmpeg_version() -> str:
     return match[1].decode(errors="replace") if match else ""
 
 
-def _is_large(stream: Stream) -> bool:
-    return math.prod(stream.size) > _LARGE
-
-
-def _command(stream: Stream, form: Format, part: Path) -> list[str]:
-    width, height = stream.size
-    pixels = "pal8" if form == "gif" else "bgra" if stream.alpha else "bgr0"
-    # without a tag the decoder copies indices byte by byte; with it, rows must be multiples of 4 bytes
-    tag = "-tag:v BIT8" if form == "gif" and width % 4 == 0 else ""
-    raw = f"-f rawvideo {tag} -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
-    into = [*_CODERS[form](stream), _numbered(part) if form == "png" else f"file:{part}"]
-    quiet = ["-hide_banner", "-nostdin", "-loglevel", "error", "-y"]
-    return [ffmpeg(), *quiet, *raw.split(), *into[:-1], *_EXACT, *_TELLING, into[-1]]
-
-
 def _gif(stream: Stream) -> list[str]:
     # ffmpeg's cropping to what is opaque loses pixels of the lowest row
     whole = ["-gifflags", "-offsetting"] if stream.alpha else []
@@ -394,7 +391,7 @@ def _mp4(stream: Stream) -> list[str]:
             f"fillborders=right={right}:bottom={bottom}:mode=smear",
         ]
     h264 = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-threads", str(_THREADS)]
-    h264 += ["-tune", "zerolatency"] if _is_large(stream) else []
+    h264 += ["-tune", "zerolatency"] if stream.is_large else []
     return [*_tagged("yuv420p", *filters), *h264, "-movflags", "+faststart", "-f", "mp4"]
 
 
@@ -406,7 +403,7 @@ def _tagged(pixels: str, *filters: str) -> list[str]:
 
 def _webm(stream: Stream) -> list[str]:
     vp9 = f"-c:v libvpx-vp9 -crf 30 -b:v 0 -deadline good -cpu-used 4 -auto-alt-ref 0 -threads {_THREADS}"
-    ahead = 0 if _is_large(stream) else 16
+    ahead = 0 if stream.is_large else 16
     pixels = "yuva420p" if stream.alpha else "yuv420p"
     return [*_tagged(pixels), *vp9.split(), "-lag-in-frames", str(ahead), "-f", "webm"]
 

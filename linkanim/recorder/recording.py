@@ -25,7 +25,7 @@ from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
-from linkanim.recorder.encode import Frame, Stream, coded_size, coding, count_frames, encoding
+from linkanim.recorder.encode import Frame, Stream, count_frames
 from linkanim.recorder.palette import Colour, make_palette
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan, refuse_size
 from linkanim.recorder.processes import drawing, processes_for
@@ -179,14 +179,14 @@ def _saying_why(target: Path) -> Iterator[None]:
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
-    stream = Stream(frames.size, plan.rate, frames.alpha)
-    code = coding(stream, form, palette_of(frames, plan.frames) if form == "gif" else ())
-    size = coded_size(stream, form)
+    stream = Stream(form, frames.size, plan.rate, frames.alpha)
+    code = stream.coding(palette_of(frames, plan.frames) if form == "gif" else ())
+    size = stream.coded_size
     processes = processes_for(plan.frames, size) if frames.independent else 0
     # started before the encoder: a copy of this process that held its pipe would keep it waiting for more
     with (
         drawing(lambda frame: code(frames.draw(frame)), plan.frames, size, processes) as coded,
-        encoding(stream, form, part) as send,
+        stream.encoding(part) as send,
     ):
         for frame in range(plan.frames):
             send(coded(frame))

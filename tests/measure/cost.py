@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from linkanim.errors import WorkFailed
 from linkanim.picture.look import Look
-from linkanim.recorder.encode import Stream, coding, encoding, ffmpeg
+from linkanim.recorder.encode import Stream, ffmpeg
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan
 from linkanim.recorder.recording import SceneFrames, palette_of, write
 from linkanim.scenes import load
@@ -133,9 +133,9 @@ def _stored(file: Path, scene: Scene, plan: Plan) -> NDArray[np.uint8]:
 def _encode(stored: NDArray[np.uint8], scene: Scene, plan: Plan, target: Path) -> None:
     form: Format = "gif" if target.suffix == ".gif" else "mp4"
     palette = palette_of(SceneFrames(scene, plan, SIZE, LOOK), plan.frames) if form == "gif" else []
-    stream = Stream(SIZE, plan.rate)
-    code = coding(stream, form, palette)
-    with encoding(stream, form, target) as send:
+    stream = Stream(form, SIZE, plan.rate)
+    code = stream.coding(palette)
+    with stream.encoding(target) as send:
         for frame in stored:
             send(code(frame.data))
 

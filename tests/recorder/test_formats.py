@@ -226,7 +226,7 @@ def test_few_large_frames_are_on_their_way(
         yield None
 
     monkeypatch.setattr(encode, "running", running)
-    with encode.encoding(encode.Stream(size, Fraction(25)), "mp4", Path("a.mp4")):
+    with encode.Stream("mp4", size, Fraction(25)).encoding(Path("a.mp4")):
         pass
     [(command, taken, gives_back)] = asked
     assert (taken, "-tune zerolatency" in command, gives_back) == (ahead, ahead < 20, ahead < 20)

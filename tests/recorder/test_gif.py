@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from reading import frames_of
 
-from linkanim.recorder.encode import Stream, coding, count_frames, encoding
+from linkanim.recorder.encode import Stream, count_frames
 from linkanim.recorder.palette import Colour
 
 Words = NDArray[np.uint32]
@@ -29,9 +29,9 @@ def encoded(
     """Write frames (height, width) of 0xaarrggbb as a GIF."""
     path = folder / "frames.gif"
     height, width = frames[0].shape
-    stream = Stream((width, height), Fraction(25), alpha)
-    code = coding(stream, "gif", palette)
-    with encoding(stream, "gif", path) as send:
+    stream = Stream("gif", (width, height), Fraction(25), alpha)
+    code = stream.coding(palette)
+    with stream.encoding(path) as send:
         for frame in frames:
             send(code(frame.astype("<u4").tobytes()))
     return path

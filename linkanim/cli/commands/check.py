@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,6 +27,28 @@ class Checked(NamedTuple):
     problems: list[Problem]
     scene: Scene | None
 
+    def lines(self) -> Iterator[str]:
+        """Yield what is printed of it: its title and class, or a line for each problem."""
+        if self.scene is not None:
+            notes = "".join(f"; {note}" for note in _notes(self.scene))
+            yield f"{self.file}: good: {self.scene.title}: {self.scene.info.class_name}{notes}"
+        for line, message in self._listed:
+            yield f"{self.file}{'' if line is None else f':{line}'}: {message}"
+
+    def as_object(self) -> dict[str, object]:
+        """Return what `--json` prints of it."""
+        listed = [{"line": line, "message": message} for line, message in self._listed]
+        scene = self.scene and {
+            "title": self.scene.title,
+            "class": self.scene.info.class_name,
+            "notes": _notes(self.scene),
+        }
+        return {"file": self.file, "good": not listed, "problems": listed, "scene": scene or None}
+
+    @property
+    def _listed(self) -> list[tuple[int | None, str]]:
+        return [(one.line, one.message.removeprefix(f"{self.file}: ")) for one in self.problems]
+
 
 def run(options: Namespace) -> None:
     """Print the problems of each file, or its title and class; `BadInput` where there is any problem."""
@@ -35,7 +58,10 @@ def run(options: Namespace) -> None:
     if not options.files:
         raise BadInput("name the scene files to check, such as `linkanim check my-linkage.toml`")
     checked = [_checked(Path(file)) for file in along(options.files, " files", len(options.files))]
-    print(json_text([_object(one) for one in checked], indent=2) if options.json else _words(checked))
+    if options.json:
+        print(json_text([one.as_object() for one in checked], indent=2))
+    else:
+        print("\n".join(chain.from_iterable(one.lines() for one in checked)))
     wrong = [one for one in checked if one.problems]
     if wrong:
         count = sum(len(one.problems) for one in wrong)
@@ -54,31 +80,6 @@ def _checked(path: Path) -> Checked:
         return Checked(where, [Problem(str(error))], None)
     problems_there = problems(text, name=path.stem, where=where)
     return Checked(where, problems_there, None if problems_there else load(path))
-
-
-def _words(checked: Iterable[Checked]) -> str:
-    lines = []
-    for file, wrong, scene in checked:
-        if scene is not None:
-            notes = "".join(f"; {note}" for note in _notes(scene))
-            lines.append(f"{file}: good: {scene.title}: {scene.info.class_name}{notes}")
-        for problem in wrong:
-            at = "" if problem.line is None else f":{problem.line}"
-            lines.append(f"{file}{at}: {problem.message.removeprefix(f'{file}: ')}")
-    return "\n".join(lines)
-
-
-def _object(one: Checked) -> dict[str, object]:
-    listed = [
-        {"line": problem.line, "message": problem.message.removeprefix(f"{one.file}: ")}
-        for problem in one.problems
-    ]
-    scene = one.scene and {
-        "title": one.scene.title,
-        "class": one.scene.info.class_name,
-        "notes": _notes(one.scene),
-    }
-    return {"file": one.file, "good": not listed, "problems": listed, "scene": scene or None}
 
 
 def _notes(scene: Scene) -> list[str]:
