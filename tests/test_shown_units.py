@@ -208,10 +208,10 @@ def test_the_list_is_in_the_unit_that_is_shown(inches: State) -> None:
 
 
 def test_a_number_is_taken_in_the_unit_that_is_shown_and_written_with_it(inches: State) -> None:
-    state = after(inches, Action("type", "2"), "take")
+    state = after(inches, Action("type", "2"), "accept")
     assert _crank(state) == (50.8, "2 in")
     assert state.scene.length_unit == "mm"
-    assert _crank(after(inches, Action("type", "40 mm"), "take")) == (40.0, "40 mm")
+    assert _crank(after(inches, Action("type", "40 mm"), "accept")) == (40.0, "40 mm")
 
 
 def test_a_nudge_is_a_step_of_the_unit_that_is_shown(inches: State) -> None:
@@ -221,7 +221,7 @@ def test_a_nudge_is_a_step_of_the_unit_that_is_shown(inches: State) -> None:
 
 
 def test_a_refusal_is_in_the_unit_that_is_shown(inches: State) -> None:
-    state = after(inches, Action("type", "40"), "take")
+    state = after(inches, Action("type", "40"), "accept")
     assert state.scene is inches.scene
     assert " in" in (state.editing.refusal or "")
     assert "mm" not in (state.editing.refusal or "")

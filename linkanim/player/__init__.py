@@ -27,7 +27,7 @@ From the ground up; a module imports from those before it only:
     pencil     a mode: a stroke is drawn, and linkages that follow it come
     posing     a mode: poses of a body are set down, and linkages that pass them come
     naming     a mode: the name of the file to be written
-    taking     a mode: how a recording is made, and where it goes
+    record_dialog  a mode: how a recording is made, and where it goes
     bands      a mode: the band within which traced points stay
     modes      all modes, and the one table of their keys
     actions    the table of actions, and `advance(state, actions)`

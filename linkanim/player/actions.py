@@ -2,7 +2,7 @@
 
 `advance(state, actions)` is pure, and the only way in which the state changes. Actions on the look, on the
 place of the input, on games and on the outside are here; those of `edits`, `pencil`, `posing`, `building`,
-`making` and `taking` in their own modules.
+`making` and `record_dialog` in their own modules.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import FORCE, TOGGLES, ConstructionKind, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
-from linkanim.player import building, edits, helping, making, rules, taking
+from linkanim.player import building, edits, helping, making, record_dialog, rules
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop
@@ -296,7 +296,7 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 BESIDE = (
     BESIDE_GAMES
     | {"keep_step", "caption_step", "lesson_on"}
-    | {"take_toast", "take_into", "mouse_moved", "menu", "note", "hint", "close"}
+    | {"open_toast", "record_into", "mouse_moved", "menu", "note", "hint", "close"}
 )
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 
@@ -323,7 +323,9 @@ def leave(state: State) -> State:
     look = replace(under.look, theme=state.look.theme)
     clock = under.clock.go(state.frame, under.phase)
     resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
-    resumed = replace(resumed, from_title=state.from_title, kiosk=state.kiosk, take=state.take)
+    resumed = replace(
+        resumed, from_title=state.from_title, kiosk=state.kiosk, recording_choice=state.recording_choice
+    )
     resumed = replace(resumed, language=state.language)
     resumed = replace(
         resumed, last_mouse_move=state.last_mouse_move
@@ -477,7 +479,7 @@ ACTIONS: Mapping[str, Rule] = {
     "construction": Rule(rules.one_of(*get_args(ConstructionKind)), making.construction),
     "slide": Rule(rules.whole, making.slide),  # the step of the slider that is shown
     "back": Rule(rules.nothing, back),
-    "take_toast": Rule(rules.nothing, open_toast, taped=False),  # a click on it: the folder that it tells of
+    "open_toast": Rule(rules.nothing, open_toast, taped=False),  # a click on it: the folder that it tells of
     "mouse_moved": Rule(
         rules.nothing, lambda state, _: replace(state, last_mouse_move=state.frame), taped=False
     ),
@@ -485,9 +487,9 @@ ACTIONS: Mapping[str, Rule] = {
     "screenshot": Rule(rules.nothing, shot("screenshot"), taped=False),
     "svg": Rule(rules.nothing, shot("svg"), taped=False),
     "share": Rule(rules.nothing, effect("share"), taped=False),
-    "record": Rule(rules.one_of(*taking.FORMATS), taking.record, taped=False),
-    "period": Rule(rules.one_of(*taking.FORMATS), taking.period, taped=False),
-    "take_into": Rule(rules.text, taking.into, taped=False),  # the file
+    "record": Rule(rules.one_of(*record_dialog.FORMATS), record_dialog.record, taped=False),
+    "period": Rule(rules.one_of(*record_dialog.FORMATS), record_dialog.period, taped=False),
+    "record_into": Rule(rules.text, record_dialog.into, taped=False),  # the file
     "make": Rule(rules.nothing, making.make, taped=False),
     "fullscreen": Rule(rules.nothing, effect("fullscreen"), taped=False),
     "save": Rule(rules.nothing, save, taped=False),

@@ -109,7 +109,7 @@ _FARTHEST = 1e15
 _OFF_THE_SHEET = frozenset(
     {
         *("edit", "edit_at", "edit_row", "trace_joint", "drive_joint", "layers", "pencil", "own_trace"),
-        *("poses", "mechanism", "select", "put", "closure", "closures", "take_closure", "reset", "returns"),
+        *("poses", "mechanism", "select", "put", "closure", "closures", "choose_closure", "reset", "returns"),
         "stage",
     }
 )
@@ -720,13 +720,13 @@ def _passed_on(state: State, further: int) -> State:
     return pass_on(replace(bare, editing=replace(bare.editing, typed=building.typed)), further)
 
 
-_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _accepted, "pass_on": _passed_on}
+_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "accept": _accepted, "pass_on": _passed_on}
 _DRAFT_ROWS: Mapping[str, Handler] = {
     "choose": _in_rows(_row_further),
     "pass_on": _in_rows(_row_further),
     "grab_row": _in_rows(_row_chosen),
     "nudge": _in_rows(_row_nudged),
-    **{name: _OWN_ROWS[name] for name in ("type", "erase", "take")},
+    **{name: _OWN_ROWS[name] for name in ("type", "erase", "accept")},
     **dict.fromkeys(("pull", "reset", "returns", "grab", "carry"), _unused),
     "closure": reassemble,
 }
@@ -802,7 +802,7 @@ def _enter(window: Outside, twice: Value) -> Iterator[Action]:
     if sheet is None or screen.state.building is None:
         return
     if sheet.building.typed:
-        yield Action("take_number")
+        yield Action("accept_number")
     elif sheet.grip:
         yield Action("hand_up")
     elif sheet.cursor:
@@ -876,7 +876,7 @@ def _in_list(name: str, usual: Handler | None) -> Handler:
 
 
 _LIST_ACTIONS: Mapping[str, tuple[Callable[[object], bool], Handler]] = {
-    **{name: Dimensions.actions[name][:2] for name in ("type", "erase", "take", "choose", "pass_on")},
+    **{name: Dimensions.actions[name][:2] for name in ("type", "erase", "accept", "choose", "pass_on")},
     **{name: Dimensions.actions[name][:2] for name in ("grab_row", "nudge", "pull")},
     **{"reset": (rules.nothing, reset), "returns": (rules.nothing, returns)},
     **{"grab": (rules.text, grab), "carry": (rules.numbers(3), carry), "closure": (rules.nothing, closure)},
@@ -983,7 +983,7 @@ class OpenSheet(Mode):
         "option_on": Rule(rules.nothing, option),  # another of what the chosen row can be
         "digits": Rule(rules.text, write),
         "erase_number": Rule(rules.nothing, erase),
-        "take_number": Rule(rules.nothing, accept),
+        "accept_number": Rule(rules.nothing, accept),
         "reassemble": Rule(
             rules.nothing, reassemble, answer=rules.closure
         ),  # as "closure", and the sheet stays

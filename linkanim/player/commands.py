@@ -51,7 +51,7 @@ _SCENE = (
     BarEntry("edit", Action("edit"), 3, leads=True),
     BarEntry("build", Action("build"), 12),
     BarEntry("pencil", Action("pencil"), 13),
-    BarEntry("record", Action("taking"), 6, leads=True),
+    BarEntry("record", Action("record_dialog"), 6, leads=True),
     *LAST_BAR,
     BarEntry("chart", Action("chart", 1), 2, on_chart=True),
     BarEntry("axis", Action("over"), 3, on_chart=True),
@@ -143,7 +143,7 @@ def _names(mode: ModeKeys) -> Mapping[Action, tuple[str, str]]:
 
 def _meant(state: State, action: Action) -> Action:
     """Return the action of a button in this state: the button that began a recording stops it."""
-    if action == Action("taking") and state.recording:
+    if action == Action("record_dialog") and state.recording:
         return Action("record", state.recording.format)
     return action
 
@@ -360,7 +360,7 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("menu", "construction"): lambda state: (
         state.look.polygons_shown > 0 or state.look.centres > 0 or state.constructed > 0
     ),
-    Action("taking"): lambda state: state.recording is not None,
+    Action("record_dialog"): lambda state: state.recording is not None,
     Action("menu"): _shows("Commands"),
     **dict.fromkeys((Action("edit"), Action("numbers")), lambda state: state.edits_dimensions),
     Action("help"): lambda state: state.help,
@@ -387,7 +387,7 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
         "" if state.scene.trace else to_say("no joint of this mechanism is traced")
     ),
     Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else _NONE_YET,
-    Action("take_back"): lambda state: "" if state.sketch and state.sketch.earlier else _NO_CHANGE,
+    Action("undo_sketch"): lambda state: "" if state.sketch and state.sketch.earlier else _NO_CHANGE,
     Action("undo_sheet"): lambda state: "" if state.building and state.building.building.past else _NO_CHANGE,
     Action("redo_sheet"): lambda state: (
         "" if state.building and state.building.building.future else to_say("there is nothing to redo")

@@ -665,7 +665,7 @@ class Dimensions(Mode):
         "nudge": Rule(rules.whole, nudge),
         "type": Rule(rules.text, write),
         "erase": Rule(rules.nothing, erase),
-        "take": Rule(rules.nothing, accept),
+        "accept": Rule(rules.nothing, accept),
         "grab_row": Rule(rules.whole, grab_row),  # a row of the list
         "pull": Rule(rules.whole, pull),  # steps from the value that was taken hold of
     }

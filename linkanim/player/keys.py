@@ -104,7 +104,7 @@ def aims() -> tuple[Bind, ...]:
 _RECORD = (
     *(on("g", "record", "gif") + on("m", "record", "mp4")),
     *(on("ctrl+g", "period", "gif") + on("ctrl+m", "period", "mp4")),
-    *on("ctrl+shift+g ctrl+shift+m", "taking"),
+    *on("ctrl+shift+g ctrl+shift+m", "record_dialog"),
 )
 _BUILD = on("f2", "build") + on("shift+f2", "build_on")
 _DIAL = both(",", ".", "dial_on")
@@ -226,7 +226,7 @@ LIST_KEYS = (
     KeyRow(
         "digits, Enter",
         "type a value, with or without a unit; take all typed values",
-        enter("take", "erase"),
+        enter("accept", "erase"),
     ),
     _WITH_CTRL,
     KeyRow("Ctrl+B", "let an input that swings return on the same closure", on("ctrl+b", "returns")),
@@ -395,7 +395,7 @@ def _names(press: Press) -> tuple[str, ...]:
 BESIDE_GAMES = frozenset(
     {
         *("play", "help", "find", "theme", "material", "zoom", "fit", "fullscreen"),
-        *("language", "pan", "record", "taking", "screenshot", "svg", "quit"),
+        *("language", "pan", "record", "record_dialog", "screenshot", "svg", "quit"),
     }
 )
 """The commands that are the window's own while a game is on; all others are handed to the game."""
@@ -462,12 +462,12 @@ _APART: Mapping[Action, str] = {
     Action("record", "mp4"): "record an MP4: start, stop",
     Action("period", "gif"): "one period as a GIF",
     Action("period", "mp4"): "one period as an MP4",
-    Action("taking"): "record and save",
-    Action("take_row", -1): "the row above",
-    Action("take_row", 1): "the row below",
-    Action("take_turn", -1): "the value before",
-    Action("take_turn", 1): "the next value",
-    Action("take_start"): "record",
+    Action("record_dialog"): "record and save",
+    Action("record_row", -1): "the row above",
+    Action("record_row", 1): "the row below",
+    Action("record_turn", -1): "the value before",
+    Action("record_turn", 1): "the next value",
+    Action("record_start"): "record",
     Action("keep_step"): "keep it as a step of the lesson",
     Action("caption_step"): "keep it as a step of the lesson, with a caption",
     Action("lesson_on", -1): "the step of the lesson before",
@@ -504,7 +504,7 @@ _APART: Mapping[Action, str] = {
     Action("nudge", 10): "ten steps more",
     Action("pass_on", -1): "the row above; the typed value waits",
     Action("pass_on", 1): "the row below; the typed value waits",
-    Action("take"): "take all typed values",
+    Action("accept"): "take all typed values",
     Action("move", -1): "the one before",
     Action("move", 1): "the next one",
     Action("move", -10): "ten rows up",

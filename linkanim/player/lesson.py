@@ -400,20 +400,20 @@ class CaptionLine(Mode):
                 KeyRow(
                     "Enter",
                     "keep the step; Esc does not",
-                    enter("take_caption", "erase_caption") + on("escape", "back"),
+                    enter("accept_caption", "erase_caption") + on("escape", "back"),
                 ),
             )
         },
         TypedKeys("write_caption"),
         alone=True,
     )
-    bar = (BACK_BAR, BarEntry("done", Action("take_caption"), 1))
+    bar = (BACK_BAR, BarEntry("done", Action("accept_caption"), 1))
     actions: ClassVar[Mapping[str, Rule]] = {
         "keep_step": Rule(rules.nothing, keep, taped=False),
         "caption_step": Rule(rules.nothing, _caption, taped=False),
         "write_caption": Rule(rules.text, _write, taped=False),
         "erase_caption": Rule(rules.nothing, _erase, taped=False),
-        "take_caption": Rule(rules.nothing, _keep_caption, taped=False),
+        "accept_caption": Rule(rules.nothing, _keep_caption, taped=False),
         "lesson_on": Rule(rules.whole, lambda state, _: state, taped=False),  # steps; resolved to "stage"
         "lesson_off": Rule(rules.nothing, leave),
         "stage": Rule(rules.text, stage, answer=answer),  # a whole step

@@ -16,9 +16,9 @@ from linkanim.player.naming import Naming
 from linkanim.player.pencil import Pencil
 from linkanim.player.posing import Posing
 from linkanim.player.reassembling import OpenClosures
+from linkanim.player.record_dialog import RecordDialog
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import Game, Mode, Resolver
-from linkanim.player.taking import TakeDialog
 
 MODES: tuple[type[Mode], ...] = (
     Dimensions,
@@ -34,7 +34,7 @@ MODES: tuple[type[Mode], ...] = (
     ToleranceBand,
     Game,
     Naming,
-    TakeDialog,
+    RecordDialog,
     CaptionLine,
 )
 """The modes that can be open over the picture."""

@@ -52,18 +52,20 @@ class Naming(Mode):
             "saving": (
                 KeyRow("type", "the name of the scene file"),
                 KeyRow(
-                    "Enter", "write it; Esc does not", enter("take_name", "erase_name") + on("escape", "back")
+                    "Enter",
+                    "write it; Esc does not",
+                    enter("accept_name", "erase_name") + on("escape", "back"),
                 ),
             )
         },
         TypedKeys("write_name"),
         alone=True,
     )
-    bar = (BACK_BAR, BarEntry("done", Action("take_name"), 1))
+    bar = (BACK_BAR, BarEntry("done", Action("accept_name"), 1))
     actions: ClassVar[Mapping[str, Rule]] = {
         "write_name": Rule(rules.text, write, taped=False),
         "erase_name": Rule(rules.nothing, erase, taped=False),
-        "take_name": Rule(rules.nothing, save, taped=False),
+        "accept_name": Rule(rules.nothing, save, taped=False),
     }
 
     @property

@@ -314,7 +314,7 @@ def cognate_at(screen: Sight, x: float, y: float, reach: float) -> int | None:
     return None
 
 
-_DRAGS: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
+_DRAGS: Mapping[str, Drag] = {"pen_down": "pen", "grasp_point": "lead", "grasp_pivot": "lead", "dial": "dial"}
 """The kind of drag that follows, by the action that the pencil has begun."""
 
 
@@ -334,7 +334,7 @@ class Pencil(Sketching, PathSketch):
                     "take a cognate: the faint linkage, which traces the same curve",
                     on("f", "cognate", 0),
                 ),
-                KeyRow("Ctrl+Z", "undo the last stroke or drag", on("ctrl+z", "take_back", held=True)),
+                KeyRow("Ctrl+Z", "undo the last stroke or drag", on("ctrl+z", "undo_sketch", held=True)),
                 KeyRow("Enter", "keep the linkage as the scene; Esc goes back", enter("keep")),
             )
         },
@@ -344,7 +344,7 @@ class Pencil(Sketching, PathSketch):
         },
     )
     bar = (
-        *(BACK_BAR, HOME_BAR, *MOVING_BAR, BarEntry("again", Action("take_back"), 3, leads=True)),
+        *(BACK_BAR, HOME_BAR, *MOVING_BAR, BarEntry("again", Action("undo_sketch"), 3, leads=True)),
         *(BarEntry("done", Action("keep"), 1), *LAST_BAR),
     )
     actions: ClassVar[Mapping[str, Rule]] = {
@@ -362,8 +362,8 @@ class Pencil(Sketching, PathSketch):
         "dial": Rule(rules.share, turn_dial),  # from 0 to 1, the most compact
         "dial_on": Rule(rules.whole, dial_on),  # so many steps further
         "cognate": Rule(rules.whole, cognate),  # its place among those that turn fully, from 0
-        "take_point": Rule(rules.whole, grasp_point),  # its place on the stroke
-        "take_pivot": Rule(rules.text, grasp_pivot),
+        "grasp_point": Rule(rules.whole, grasp_point),  # its place on the stroke
+        "grasp_pivot": Rule(rules.text, grasp_pivot),
         "lead": Rule(rules.numbers(2), lead),  # to (x, y) in the scene's unit
         "let_go": Rule(rules.nothing, let_go),
     }
@@ -449,9 +449,9 @@ class Pencil(Sketching, PathSketch):
         pivots = [name for name in PIVOTS if name in pose.position] if self.follows else []
         for pivot in pivots:
             if max(map(abs, screen.away(pose.position[pivot], x, y))) <= reach:
-                return Action("take_pivot", pivot)
+                return Action("grasp_pivot", pivot)
         points = self.curve.points if self.curve and not self.is_blank else ()
         away = [hypot(*screen.away((point.real, point.imag), x, y)) for point in points]
         if away and min(away) <= reach:
-            return Action("take_point", away.index(min(away)))
+            return Action("grasp_point", away.index(min(away)))
         return Action("pen_down", screen.world(x, y))

@@ -500,7 +500,7 @@ class Posing(Sketching, PoseSketch):
                 KeyRow(
                     "Tab, Del", "choose a frame or pin; remove it", tabs("further") + on("delete", "remove")
                 ),
-                KeyRow("Ctrl+Z", "undo the last change", on("ctrl+z", "take_back", held=True)),
+                KeyRow("Ctrl+Z", "undo the last change", on("ctrl+z", "undo_sketch", held=True)),
                 KeyRow(
                     "Enter, Ctrl+Enter",
                     "keep the linkage as the scene; Esc goes back",
@@ -516,7 +516,7 @@ class Posing(Sketching, PoseSketch):
         },
     )
     bar = (
-        *(BACK_BAR, HOME_BAR, *MOVING_BAR, BarEntry("again", Action("take_back"), 3, leads=True)),
+        *(BACK_BAR, HOME_BAR, *MOVING_BAR, BarEntry("again", Action("undo_sketch"), 3, leads=True)),
         *(BarEntry("construction", Action("theory"), 4), BarEntry("done", Action("keep"), 1), *LAST_BAR),
     )
     actions: ClassVar[Mapping[str, Rule]] = {

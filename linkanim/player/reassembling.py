@@ -68,7 +68,7 @@ class OpenClosures(OpenShelf):
     actions: ClassVar[Mapping[str, Rule]] = {
         **OpenShelf.actions,
         "closures": Rule(rules.nothing, _toggle, taped=False),
-        "take_closure": Rule(rules.whole, _put_together),  # its place among all closures of the scene
+        "choose_closure": Rule(rules.whole, _put_together),  # its place among all closures of the scene
     }
     has_new = False
 
@@ -91,7 +91,7 @@ class OpenClosures(OpenShelf):
 
     def takes(self, number: int) -> tuple[Action, ...]:
         """Return the actions that show what is at a place."""
-        return (Action("take_closure", number),)
+        return (Action("choose_closure", number),)
 
     def aged(self, state: State) -> State:
         """Look for the closures, in the second frame."""

@@ -176,7 +176,7 @@ ACTIONS: Mapping[str, Rule] = {
     "follow": Rule(rules.answer, follow),  # an answer's numbers
     "answer": Rule(rules.whole, choose),  # its place in the row
     "keep": Rule(rules.nothing, keep),
-    "take_back": Rule(rules.nothing, undo),
+    "undo_sketch": Rule(rules.nothing, undo),
 }
 """The actions that the pencil and poses share."""
 

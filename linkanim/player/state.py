@@ -787,7 +787,7 @@ Format = Literal["gif", "mp4"]
 
 
 @frozen
-class Take:
+class RunningRecording:
     """A recording that runs since frame `since`, to be written to `target`; "" for the next free name."""
 
     format: Format
@@ -795,7 +795,7 @@ class Take:
     target: str = ""
 
 
-class TakeChoice(NamedTuple):
+class RecordingChoice(NamedTuple):
     """How recordings are made: format, size (None: the window's shape), and whether they are one period."""
 
     format: Format = "gif"
@@ -906,8 +906,8 @@ class State:
     departures: tuple[Departure, ...] = ()
     faded: int | None = None
     shot: int | None = None
-    recording: Take | None = None
-    take: TakeChoice = TakeChoice()
+    recording: RunningRecording | None = None
+    recording_choice: RecordingChoice = RecordingChoice()
     from_title: bool = False
     kiosk: bool = False
     by_itself: bool = False
@@ -1120,7 +1120,7 @@ def with_effect(state: State, name: str, value: str | None = None) -> State:
 # A scene file passes its checks and may still meet a hole in the solver. The window then keeps the last
 # good linkage, and writes what is needed to find the hole.
 
-_AT_A_VALUE = ("take", "nudge")
+_AT_A_VALUE = ("accept", "nudge")
 
 
 def proved(scene: Scene, phase: float) -> Scene:

@@ -131,7 +131,7 @@ def resumed(state: State) -> Iterator[Action]:
     if sketch.dial is not None:
         yield from (Action("dial", sketch.dial), Action("let_go"))
     for pivot, to in sketch.pivots:
-        yield from (Action("take_pivot", pivot), Action("lead", to), Action("let_go"))
+        yield from (Action("grasp_pivot", pivot), Action("lead", to), Action("let_go"))
     yield from (Action("pen_to" if n else "pen_down", (at.real, at.imag)) for n, at in enumerate(sketch.pen))
 
 

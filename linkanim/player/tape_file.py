@@ -249,6 +249,18 @@ _NAMED = {
     "undigit": "erase_number",
     "unmet": "no_linkage",
     "take_untype": "erase_target",
+    "take": "accept",
+    "take_number": "accept_number",
+    "take_back": "undo_sketch",
+    "take_point": "grasp_point",
+    "take_pivot": "grasp_pivot",
+    "take_closure": "choose_closure",
+    "taking": "record_dialog",
+    "take_places": "record_places",
+    "take_row": "record_row",
+    "take_turn": "record_turn",
+    "take_type": "record_type",
+    "take_refused": "record_refused",
 }
 """What the actions of earlier tapes are called now."""
 

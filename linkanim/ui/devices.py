@@ -308,7 +308,7 @@ class Mouse:
         """Return the actions of a gesture on anything that lies below the bar."""
         if gesture.kind == "down" and screen.target_at("toast", *self.at):
             self.drag = "bar"
-            return (Action("take_toast"),)
+            return (Action("open_toast"),)
         if screen.state.help and self.drag is None and not screen.over.shelf:
             return self._on_the_help(screen) if gesture.kind == "down" else ()
         if self.drag == "slider" or (gesture.kind == "down" and screen.target_at("slider", *self.at)):

@@ -22,7 +22,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Hover, OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
-from linkanim.player import files, modes, taking
+from linkanim.player import files, modes, record_dialog
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, end_of_frame, leave
 from linkanim.player.building import leave_sheet, written
@@ -33,7 +33,7 @@ from linkanim.player.keys import bind_of
 from linkanim.player.lesson import Lesson
 from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
-from linkanim.player.state import Game, State, Take, begin, recovered, report
+from linkanim.player.state import Game, RunningRecording, State, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load, names
 from linkanim.scenes.files import is_lesson, opened, path_of
@@ -79,7 +79,7 @@ _WAITS = to_say(
 )
 _TAKEN_UP = to_say("this is the unsaved work that was kept; Ctrl+N begins an empty sheet")
 _BESIDE_A_TAPE = frozenset(
-    {"mouse_moved", "hint", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
+    {"mouse_moved", "hint", "open_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
 )
 
 
@@ -530,21 +530,23 @@ class Window:
             self._render(form)
         except LinkanimError as error:
             assert self._taping
-            self.state = replace(self.state, recording=Take(form, self._taping.since))
+            self.state = replace(self.state, recording=RunningRecording(form, self._taping.since))
             self._target = ""  # the next attempt takes a free name
             self._notes.append(said("{error}; the recording runs on", error=error))
 
     def _render(self, form: str) -> None:
         """Render the running recording, into the file that was chosen when it began."""
         if self._taping:
-            self._queue.add(self._taping.tape(self.state.frame), form, self.state.take.size, self._target)
+            self._queue.add(
+                self._taping.tape(self.state.frame), form, self.state.recording_choice.size, self._target
+            )
             self._taping = None
 
     def _render_period(self, file: str) -> None:
         """Render one period without actions into a file; where only a format is given, into a free one."""
         tape = Taping(self.state, pygame.display.get_window_size()).tape(self.state.frame + 1)
-        form, place = (file, "") if file in taking.FORMATS else (file.rpartition(".")[2], file)
-        self._queue.add(tape, form, self.state.take.size, place)
+        form, place = (file, "") if file in record_dialog.FORMATS else (file.rpartition(".")[2], file)
+        self._queue.add(tape, form, self.state.recording_choice.size, place)
 
     @property
     def _queue(self) -> Queue:

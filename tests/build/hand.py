@@ -96,7 +96,7 @@ class Hand:
         """Make a gesture; before one by the pointer what runs is turned back to where it was drawn."""
         name, *words = line.split()
         if name == "type":
-            return self.do(Action("digits", " ".join(words)), Action("take_number"))
+            return self.do(Action("digits", " ".join(words)), Action("accept_number"))
         if name == "choose":
             return self._choose((words[0], " ".join(words[1:])))
         if name == "number":

@@ -47,7 +47,7 @@ SHOWN: dict[str, tuple[str, tuple[Action, ...]]] = {
     "the help": ("press", (Action("help"),)),
     "the help of a list": ("press", (Action("edit"), Action("help"))),
     "the shelf": ("press", (Action("shelf"),)),
-    "a recording": ("press", (Action("taking"),)),
+    "a recording": ("press", (Action("record_dialog"),)),
     "a construction": ("crank-rocker", (Action("pause"), Action("construct", 1), Action("construct", 3))),
     "a sheet": ("press", (Action("sheet"),)),
     "a linkage on a sheet": ("crank-rocker", (Action("build_on"),)),

@@ -129,6 +129,6 @@ def test_too_many_dyads_are_a_sentence(player: Player) -> None:
 
 def test_a_tape_takes_the_same_closure(player: Player) -> None:
     found = closures(player.state.scene)
-    after = advance(player.state, [Action("take_closure", 1)])
+    after = advance(player.state, [Action("choose_closure", 1)])
     assert same(after.scene, found[1].scene)
-    assert advance(player.state, [Action("take_closure", 99)]).scene is player.state.scene
+    assert advance(player.state, [Action("choose_closure", 99)]).scene is player.state.scene

@@ -20,7 +20,7 @@ from linkanim.picture.raster import offscreen
 from linkanim.picture.theme import LIGHT, theme_of
 from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
-from linkanim.player import taking
+from linkanim.player import record_dialog
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
@@ -29,9 +29,9 @@ from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
+from linkanim.player.record_dialog import RecordDialog
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import MOUSE_FRAMES, State, begin
-from linkanim.player.taking import TakeDialog
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
 from linkanim.ui import screen
@@ -428,8 +428,8 @@ def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, ta
         player.press(pygame.K_SPACE)
         for name in names:
             listing = player.state.of(Listing)
-            if listing or player.state.of(TakeDialog):
-                labels = [one.label for one in taking.rows(player.state)]
+            if listing or player.state.of(RecordDialog):
+                labels = [label for label, *_ in record_dialog.rows(player.state)]
                 words = [*listing.matches(player.state.scene)] if listing else labels
                 found = (n for n, one in enumerate(words) if one.startswith(name))
                 row = int(name[4:]) if name.startswith("row ") else next(found)

@@ -77,9 +77,9 @@ def a_hand(random: Random, state: State) -> Iterator[Action]:
     for name in ("hand_down", "hand_to"):
         yield Action(name, (*random.choice([*places, free]), 5.0, 1.0))
     yield Action("hand_up")
-    more = ("remove", "trace_on", "drive_by", "undo_sheet", "redo_sheet", "take_number")
+    more = ("remove", "trace_on", "drive_by", "undo_sheet", "redo_sheet", "accept_number")
     yield from (Action(name) for name in random.sample(more, 3))
-    yield from (Action("further", 1), Action("digits", "5"), Action("take_number"))
+    yield from (Action("further", 1), Action("digits", "5"), Action("accept_number"))
 
 
 @cache
@@ -127,7 +127,7 @@ def taped() -> list[Tape]:
     """Return tapes of edits, of a path, of a game and of a sheet."""
     links = (0.1, 1.0, 0.3, 1.0, 9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
     done: dict[str, list[Action]] = {
-        "crank-rocker": [Action("edit"), Action("type", "55"), Action("take"), Action("nudge", 3)],
+        "crank-rocker": [Action("edit"), Action("type", "55"), Action("accept"), Action("nudge", 3)],
         "press": [
             Action("pencil"),
             Action("stroke", (1.0, *range(24))),

@@ -167,7 +167,7 @@ def test_a_refusal_says_how_far_the_input_goes_before_the_linkage_is_worked_out(
 def test_a_value_refused_before_a_drag_is_warned_of_after_it_too() -> None:
     crank = after(opened("crank-rocker", 1.0), Action("choose", 1))
     state = after(crank, Action("type", "70"), Action("pass_on", 1))
-    moved = after(drag(state, "P", (3.0, 0.0)), "drop", "take")
+    moved = after(drag(state, "P", (3.0, 0.0)), "drop", "accept")
     assert values(moved)["Crank 2"] == 50.0
     assert str(moved.editing.refusal).endswith("(Enter again takes it)")
 

@@ -30,7 +30,7 @@ def after(state: State, *actions: Action | str) -> State:
 
 
 def typed(state: State, text: str) -> State:
-    return after(state, *(Action("type", letter) for letter in text), "take")
+    return after(state, *(Action("type", letter) for letter in text), "accept")
 
 
 @pytest.fixture
@@ -83,20 +83,20 @@ def test_bars_that_cannot_meet_are_refused(crank: State) -> None:
 # Where the crank turned fully and no longer could, it says so first, with the sum and the range.
 @pytest.mark.parametrize("ask", [("type", "70"), ("nudge", 20)], ids=["typed", "nudged"])
 def test_the_end_of_full_turns_is_refused_once(crank: State, ask: tuple[str, str | int]) -> None:
-    warned = after(crank, Action(*ask), "take") if ask[0] == "type" else after(crank, Action(*ask))
+    warned = after(crank, Action(*ask), "accept") if ask[0] == "type" else after(crank, Action(*ask))
     assert warned.scene is crank.scene
     assert str(warned.editing.refusal).startswith(
         "s + l = 170 > p + q = 165: the crank cannot turn fully; it swings −151.7°…151.7°"
     )
     assert warned.editing.typed == "70"
-    taken = after(warned, "take")
+    taken = after(warned, "accept")
     assert value(taken, "Input rocker 2") == 70.0
     assert taken.editing.refusal is None
 
 
 def test_another_value_is_warned_of_again(crank: State) -> None:
     warned = typed(crank, "70")
-    again = after(warned, "erase", Action("type", "2"), "take")
+    again = after(warned, "erase", Action("type", "2"), "accept")
     assert again.scene is crank.scene
     assert "cannot turn fully" in str(again.editing.refusal)
 
@@ -178,7 +178,7 @@ def test_values_passed_on_from_are_judged_together(crank: State, order: int) -> 
     values = list(DOUBLED.items())[::order]
     for n, (_, text) in enumerate(values):
         state = after(state, *(Action("type", letter) for letter in text))
-        state = after(state, Action("pass_on", order) if n < 3 else Action("take"))
+        state = after(state, Action("pass_on", order) if n < 3 else Action("accept"))
         assert state.editing.refusal is None
         assert (state.scene is crank.scene) == (n < 3)
     assert [value(state, label) for label in DOUBLED] == [200.0, 100.0, 170.0, 160.0]
@@ -200,7 +200,7 @@ def test_a_draft_is_mended_where_it_stands(crank: State) -> None:
     state = after(
         crank, Action("type", "4"), Action("type", "9"), Action("pass_on", 1), Action("pass_on", -1)
     )
-    again = after(state, "erase", Action("type", "8"), "take")
+    again = after(state, "erase", Action("type", "8"), "accept")
     assert value(again, "Crank 2") == 48.0
     assert not after(state, "erase", "erase").editing.begun
 
@@ -251,7 +251,7 @@ def test_values_begun_of_a_row_that_a_changed_file_has_no_longer_are_let_go_of(
     state = after(state, "edit", Action("choose", point), Action("type", "8"), Action("pass_on", -point))
     state = renewed(state, scene_from(document, name="mine", where="mine.toml"))
     assert len(state.editing.drafts) == drafts
-    assert not any(effect.name == "report" for effect in after(state, "take").effects)
+    assert not any(effect.name == "report" for effect in after(state, "accept").effects)
 
 
 def test_the_list_says_what_the_lengths_make_of_the_linkage(crank: State) -> None:
@@ -262,7 +262,7 @@ def test_the_list_says_what_the_lengths_make_of_the_linkage(crank: State) -> Non
 
 
 def test_the_facts_light_up_when_the_class_changes_and_fade(crank: State) -> None:
-    state = after(typed(crank, "66"), "take")
+    state = after(typed(crank, "66"), "accept")
     flashes = []
     for _ in range(FLASH_FRAMES + 1):
         shown = values_in(overlay(state))
@@ -469,6 +469,6 @@ def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
 
 def test_a_second_change_starts_from_what_is_shown(crank: State) -> None:
     halfway = after(typed(crank, "40"), *[Action("note", "")] * (MOVE_FRAMES // 2), Action("type", "60"))
-    again = after(halfway, "take")
+    again = after(halfway, "accept")
     assert value(again, "Crank 2") == 60.0
     assert shown_crank(again) == pytest.approx(shown_crank(halfway), abs=2.0)

@@ -116,7 +116,7 @@ EDITING = {
     "a letter belongs to the unit": (Press("d", "d"), True, Action("type", "d")),
     "space belongs to the value": (Press("space", " "), True, Action("type", " ")),
     "space still pauses": (Press("space", " "), False, Action("pause")),
-    "enter takes": (Press("return", "\r"), True, Action("take")),
+    "enter takes": (Press("return", "\r"), True, Action("accept")),
     "backspace erases": (Press("backspace", "\x08"), True, Action("erase")),
     "escape goes back": (Press("escape", "\x1b"), True, Action("back")),
     "tab passes on": (Press("tab", "\t"), True, Action("pass_on", 1)),
@@ -186,9 +186,19 @@ def test_keys_that_hold_are_those_that_move() -> None:
     held = {bind.action.name for bind in BINDS if bind.repeats}
     assert held == {
         *("step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"),
-        *("move", "row", "erase_filter", "scroll", "take_back", "erase_place", "erase_name", "turn", "raise"),
+        *(
+            "move",
+            "row",
+            "erase_filter",
+            "scroll",
+            "undo_sketch",
+            "erase_place",
+            "erase_name",
+            "turn",
+            "raise",
+        ),
         *("aim", "lift", "number", "further", "erase_number", "undo_sheet", "redo_sheet", "dial_on"),
-        *("take_row", "take_turn", "erase_target", "erase_caption", "tolerate"),
+        *("record_row", "record_turn", "erase_target", "erase_caption", "tolerate"),
     }
 
 

@@ -26,7 +26,7 @@ from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
-from linkanim.player import background, taking
+from linkanim.player import background, record_dialog
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.shelving import OpenShelf
@@ -127,7 +127,7 @@ class Pointing(Hand):
 
     def dialog(self, label: str) -> None:
         """Take the row of the dialog of a recording that begins so."""
-        found = [one.label for one in taking.rows(self.state)]
+        found = [label for label, *_ in record_dialog.rows(self.state)]
         number = next(n for n, one in enumerate(found) if one.startswith(label))
         row_at = self.player.window.screen.row_at
         self.drag((60.0, next(y + 3.0 for y in range(2, 718) if row_at(60, y) == number)))

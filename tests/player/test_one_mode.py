@@ -167,12 +167,12 @@ def test_a_value_that_cannot_be_is_refused_on_the_sheet_as_it_is_without(editor:
     bare = editor.state
     told = []
     for state in (bare, after(bare, "build_on", "numbers")):
-        state = after(state, Action("choose", 2 - state.editing.chosen), Action("type", "40"), "take")
+        state = after(state, Action("choose", 2 - state.editing.chosen), Action("type", "40"), "accept")
         assert of_label(state, "Coupler 3") == 85
         panel = values_in(overlay(state))
         assert panel
         told.append(panel.error)
-        again = after(state, "take")
+        again = after(state, "accept")
         assert of_label(again, "Coupler 3") == 40
         assert again.building is None or of_label(after(again, "undo_sheet"), "Coupler 3") == 85
     assert told[0] == told[1]
@@ -268,7 +268,7 @@ def test_a_tape_of_the_mode_plays_it_again(editor: Editor, here: Path) -> None:
         Action("nudge", 2),
         Action("choose", 1),
         Action("type", "90"),
-        Action("take"),
+        Action("accept"),
         Action("undo_sheet"),
     ]
     state = editor.state

@@ -156,7 +156,7 @@ def test_a_point_of_the_stroke_takes_its_neighbours_along_and_the_linkage_follow
     before = sketch_of(answered).curve
     assert before is not None
     to = before.points[10] + (5 + 3j)
-    held = after(answered, Action("take_point", 10), Action("lead", (to.real, to.imag)))
+    held = after(answered, Action("grasp_point", 10), Action("lead", (to.real, to.imag)))
     curve = sketch_of(held).curve
     assert curve is not None
     moved = np.abs(curve.points - before.points)
@@ -172,7 +172,7 @@ def test_a_point_of_the_stroke_takes_its_neighbours_along_and_the_linkage_follow
 
 
 def test_a_pivot_that_is_dragged_is_held_where_it_was_put(answered: State) -> None:
-    state = after(answered, Action("take_pivot", "O4"), Action("lead", (110.0, 12.0)), "let_go")
+    state = after(answered, Action("grasp_pivot", "O4"), Action("lead", (110.0, 12.0)), "let_go")
     request = request_of(sketch_of(state), search=True)
     assert request is not None
     assert (list(request.pivots), request.near) == ([None, (110.0, 12.0)], BETTER)
@@ -180,25 +180,25 @@ def test_a_pivot_that_is_dragged_is_held_where_it_was_put(answered: State) -> No
 
 
 def test_strokes_and_drags_are_taken_back_one_by_one(answered: State) -> None:
-    held = after(answered, Action("take_point", 10), Action("lead", (9.0, 9.0)), Action("follow", OTHER))
-    pinned = after(held, "let_go", Action("take_pivot", "O2"), Action("lead", (1.0, 2.0)), "let_go")
+    held = after(answered, Action("grasp_point", 10), Action("lead", (9.0, 9.0)), Action("follow", OTHER))
+    pinned = after(held, "let_go", Action("grasp_pivot", "O2"), Action("lead", (1.0, 2.0)), "let_go")
     drawn_again = drawn(replace(pinned, frame=pinned.frame), start=())
     found = after(drawn_again, Action("follow", FIRST))
     assert sketch_of(found).off == 1.5
-    again = after(found, "take_back")
+    again = after(found, "undo_sketch")
     assert sketch_of(again).pivots == (("O2", (1.0, 2.0)),)
-    bent = after(again, "take_back")
+    bent = after(again, "undo_sketch")
     assert (sketch_of(bent).pivots, sketch_of(bent).off) == ((), 0.4)
-    whole = after(bent, "take_back")
+    whole = after(bent, "undo_sketch")
     assert sketch_of(whole).curve is sketch_of(answered).curve
     assert whole.scene == answered.scene
-    blank = after(whole, "take_back")
+    blank = after(whole, "undo_sketch")
     assert sketch_of(blank).is_blank
-    assert after(blank, "take_back", "undo").sketch == blank.sketch
+    assert after(blank, "undo_sketch", "undo").sketch == blank.sketch
 
 
 def test_answers_that_come_while_something_is_dragged_wait_for_the_next(answered: State) -> None:
-    held = after(answered, Action("take_point", 10), Action("cards", (1.0, *FIRST, *OTHER)))
+    held = after(answered, Action("grasp_point", 10), Action("cards", (1.0, *FIRST, *OTHER)))
     assert sketch_of(held).answers == sketch_of(answered).answers
 
 
@@ -225,7 +225,7 @@ def test_a_scene_s_own_trace_is_the_stroke_and_the_scene_is_among_the_answers(pl
     assert request.near is None
     whole = after(own, Action("follow", FIRST), Action("cards", (0.0, *BETTER, *OTHER)))
     assert (whole.scene, len(sketch_of(whole).answers)) == (plain.scene, 3)
-    bent = after(whole, Action("take_point", 3), Action("lead", (0.0, 0.0)))
+    bent = after(whole, Action("grasp_point", 3), Action("lead", (0.0, 0.0)))
     assert len(sketch_of(bent).answers) == 2
 
 
@@ -251,8 +251,8 @@ NONSENSE = {
     "half a point": Action("stroke", (1.0, 2.0)),
     "a stroke of no size": Action("stroke", (1.0, *(0.0, 0.0) * 5)),
     "a negative length": Action("follow", (*BETTER[:6], -3.0, *BETTER[7:])),
-    "a place that is none": Action("take_point", -4),
-    "a pin that is none": Action("take_pivot", "Z"),
+    "a place that is none": Action("grasp_point", -4),
+    "a pin that is none": Action("grasp_pivot", "Z"),
     "an answer that is none": Action("cards", (9.0, *BETTER)),
 }
 
@@ -267,7 +267,7 @@ def test_nonsense_leaves_the_scene_as_it_is(answered: State, action: Action) -> 
 
 
 def test_a_recording_begun_in_a_sketch_begins_with_it(answered: State, tmp_path: Path) -> None:
-    held = after(answered, Action("take_pivot", "O4"), Action("lead", (110.0, 12.0)), "let_go")
+    held = after(answered, Action("grasp_pivot", "O4"), Action("lead", (110.0, 12.0)), "let_go")
     taping = Taping(held, (1280, 720))
     taping.note(held.frame + 3, (Action("answer", 1),))
     write(taping.tape(held.frame + 5), tmp_path / "mine.tape.json")
@@ -488,7 +488,7 @@ def test_the_dial_rests_at_an_answer_and_undo_takes_it_back(fronted: State) -> N
     rest = after(fronted, Action("dial", 0.4), "let_go")
     assert (sketch_of(rest).dial, sketch_of(rest).held, sketch_of(rest).off) == (0.5, None, 0.3)
     assert rest.scene.document["joints"]["A"]["length"] == NARROW[2]
-    back = after(rest, "take_back")
+    back = after(rest, "undo_sketch")
     assert (sketch_of(back).dialled, sketch_of(back).off) == (None, 0.12)
 
 
@@ -600,7 +600,7 @@ def test_a_cognate_takes_the_place_of_the_answer_and_traces_the_same_curve(answe
     places = np.linspace(0, 2 * math.pi, 40)
     ways = [one.scene.solve(phase=places, derivatives=0).position["P"] for one in (answered, taken)]
     assert ways[0] == pytest.approx(ways[1], abs=1e-9)
-    assert after(taken, "take_back").scene.linkage == answered.scene.linkage
+    assert after(taken, "undo_sketch").scene.linkage == answered.scene.linkage
 
 
 def test_the_cognate_of_a_cognate_is_the_answer_itself(answered: State) -> None:

@@ -211,7 +211,7 @@ def test_a_joint_of_four_poses_slides_along_the_curve_of_circle_points(empty: St
     done = answered(after(led, "hand_up"), follower)
     again = after(begin(load("crank-rocker")), *resumed(done))
     assert sketch_of(again).answer.joints[name] == pytest.approx(now[name], abs=1e-6)
-    assert sketch_of(after(done, "take_back")).answer.joints[name] == pytest.approx(at, abs=1e-6)
+    assert sketch_of(after(done, "undo_sketch")).answer.joints[name] == pytest.approx(at, abs=1e-6)
 
 
 def test_of_four_poses_one_point_alone_slides(empty: State) -> None:
@@ -267,7 +267,7 @@ def test_poses_that_no_linkage_meets_are_told_in_a_sentence(empty: State) -> Non
 
 def test_a_change_is_undone_with_its_answers(three: State) -> None:
     moved = answered(drawn(three, (70.0, -5.0), (75.0, -9.0)))
-    back = after(moved, "take_back")
+    back = after(moved, "undo_sketch")
     assert sketch_of(back).poses == sketch_of(three).poses
     assert sketch_of(back).answers == sketch_of(three).answers
 

@@ -60,7 +60,7 @@ def random_action(chance: random.Random) -> Action:
             *map(
                 Action, ("pause", "direction", "start", "closure", "trace", "ghost", "names", "theme", "help")
             ),
-            *map(Action, ("fit", "edit", "erase", "take", "undo", "redo", "back", "drop", "list", "shelf")),
+            *map(Action, ("fit", "edit", "erase", "accept", "undo", "redo", "back", "drop", "list", "shelf")),
             *(
                 Action(name, chance.choice([-10, -1, 1, 1, 3]))
                 for name in ("step", "speed", "mechanism", "chart")
@@ -84,8 +84,8 @@ def random_action(chance: random.Random) -> Action:
             Action("dial_on", chance.randint(-2, 2)),
             Action("follow", answer(chance)),
             Action("answer", chance.randrange(3)),
-            Action("take_point", chance.randrange(12)),
-            Action("take_pivot", chance.choice(["O2", "O4"])),
+            Action("grasp_point", chance.randrange(12)),
+            Action("grasp_pivot", chance.choice(["O2", "O4"])),
         ]
     )
 

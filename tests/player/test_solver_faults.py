@@ -67,7 +67,7 @@ def test_a_value_at_which_the_solver_fails_is_refused_in_a_sentence(
     crank: State, error: Exception, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("linkanim.player.edits.with_dimensions", raising(error))
-    state = advance(advance(crank, [Action("type", "47")]), [Action("take")])
+    state = advance(advance(crank, [Action("type", "47")]), [Action("accept")])
     assert state.scene is crank.scene
     assert type(error).__name__ in str(state.editing.refusal)
     assert "the last good linkage runs on" in str(state.editing.refusal)
@@ -76,7 +76,7 @@ def test_a_value_at_which_the_solver_fails_is_refused_in_a_sentence(
 
 # Every way to another scene, and where the scene it leads to is worked out.
 WAYS = {
-    "a value taken": (Action("take"), None),
+    "a value taken": (Action("accept"), None),
     "a nudge": (Action("nudge", 1), None),
     "the other closure": (Action("closure"), None),
     "Tab": (Action("mechanism", 1), None),
@@ -147,7 +147,7 @@ def test_a_report_holds_what_is_needed_to_find_the_hole(
     assert player.tick()
     found = report_of(here)
     assert found["document"] == load("crank-rocker").document
-    assert (found["key"], found["typed"], found["action"]) == (["four-bar", "crank"], "47", ["take", None])
+    assert (found["key"], found["typed"], found["action"]) == (["four-bar", "crank"], "47", ["accept", None])
     assert found["error"] == "ZeroDivisionError: float division by zero"
     assert any("test_solver_faults.py" in line for line in found["traceback"])
     assert player.state.toast is not None

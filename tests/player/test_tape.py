@@ -109,10 +109,29 @@ def test_a_tape_from_before_names_and_polygons_shows_none(tape: Tape) -> None:
 
 
 def test_actions_of_earlier_tapes_are_those_of_today(tape: Tape) -> None:
-    former = (["unbuild"], ["rebuild"], ["undigit"], ["take_untype"], ["unmet", "no linkage"])
-    document = json.loads(json.dumps(to_document(tape))) | {"actions": [[0, *action] for action in former]}
-    names = [action.name for _, action in from_document(document, "mine.tape.json").actions]
-    assert names == ["undo_sheet", "redo_sheet", "erase_number", "erase_target", "no_linkage"]
+    former: dict[str, tuple[str, *tuple[object, ...]]] = {
+        "unbuild": ("undo_sheet",),
+        "rebuild": ("redo_sheet",),
+        "undigit": ("erase_number",),
+        "unmet": ("no_linkage", "no linkage"),
+        "take": ("accept",),
+        "take_number": ("accept_number",),
+        "take_back": ("undo_sketch",),
+        "take_point": ("grasp_point", 3),
+        "take_pivot": ("grasp_pivot", "O2"),
+        "take_closure": ("choose_closure", 1),
+        "taking": ("record_dialog",),
+        "take_places": ("record_places", "/somewhere\none"),
+        "take_row": ("record_row", 1),
+        "take_turn": ("record_turn", -1),
+        "take_type": ("record_type", "x"),
+        "take_untype": ("erase_target",),
+        "take_refused": ("record_refused", "not there"),
+    }
+    actions = [[0, name, *now[1:]] for name, now in former.items()]
+    document = json.loads(json.dumps(to_document(tape))) | {"actions": actions}
+    read = [action for _, action in from_document(document, "mine.tape.json").actions]
+    assert read == [Action(*now) for now in former.values()]  # type: ignore[arg-type]
 
 
 def test_a_file_is_never_written_over(tape: Tape, tmp_path: Path) -> None:
@@ -130,10 +149,10 @@ def test_a_tape_with_nothing_done_is_a_loop(tape: Tape) -> None:
 
 # Files, dialogs of the window and what lies over its picture are its user's own.
 OUTSIDE = (
-    *(Action("record", "gif"), Action("period", "mp4"), Action("take_into", "/home/me/one.gif")),
-    *map(Action, ("screenshot", "svg", "share", "make", "save", "save_as", "erase_name", "take_name")),
+    *(Action("record", "gif"), Action("period", "mp4"), Action("record_into", "/home/me/one.gif")),
+    *map(Action, ("screenshot", "svg", "share", "make", "save", "save_as", "erase_name", "accept_name")),
     *(Action("write_name", "mine"), Action("open_file", "mine.toml"), Action("files", "mine.toml\t1")),
-    *map(Action, ("reload", "fullscreen", "quit", "close", "mouse_moved", "take_toast")),
+    *map(Action, ("reload", "fullscreen", "quit", "close", "mouse_moved", "open_toast")),
     *(Action("note", "x"), Action("hint", "x")),
     *map(Action, ("list", "menu", "shelf", "erase_filter")),
     *(Action("filter", "x"), *(Action(name, 1) for name in ("move", "point", "top"))),

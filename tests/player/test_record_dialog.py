@@ -15,11 +15,11 @@ from shown_lists import values_in
 
 from linkanim.cli import main
 from linkanim.play.games import game_of
-from linkanim.player import background, taking
+from linkanim.player import background, record_dialog
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
-from linkanim.player.state import State, TakeChoice, begin
-from linkanim.player.taking import TakeDialog
+from linkanim.player.record_dialog import RecordDialog
+from linkanim.player.state import RecordingChoice, State, begin
 from linkanim.player.tape import Tape
 from linkanim.player.tape_file import read
 from linkanim.scenes import load
@@ -64,8 +64,8 @@ def player(here: Path, asked: Asked) -> Iterator[Player]:
         player.window.close()
 
 
-def dialog(player: Player) -> TakeDialog:
-    found = player.state.of(TakeDialog)
+def dialog(player: Player) -> RecordDialog:
+    found = player.state.of(RecordDialog)
     assert found
     return found
 
@@ -77,20 +77,20 @@ def opened(player: Player) -> None:
 
 
 def values(state: State) -> dict[str, str]:
-    return {one.label: one.value for one in taking.rows(state)}
+    return {label: value for label, value, _ in record_dialog.rows(state)}
 
 
 def click(player: Player, label: str) -> None:
-    number = [one.label for one in taking.rows(player.state)].index(label)
+    number = [label for label, *_ in record_dialog.rows(player.state)].index(label)
     y = next(y for y in range(2, 718) if player.window.screen.row_at(60, y) == number)
     player.drag((60.0, y + 3.0))
 
 
 # What is chosen, by the keys and by the mouse: rows down and steps to the right, or the row that is clicked.
 CHOICES: dict[str, tuple[str, Callable[[Player], object]]] = {
-    "format": ("Format", lambda player: player.state.take.format == "mp4"),
-    "size": ("Size", lambda player: player.state.take.size == (800, 450)),
-    "length": ("Length", lambda player: player.state.take.whole),
+    "format": ("Format", lambda player: player.state.recording_choice.format == "mp4"),
+    "size": ("Size", lambda player: player.state.recording_choice.size == (800, 450)),
+    "length": ("Length", lambda player: player.state.recording_choice.whole),
     "place": ("Where to", lambda player: values(player.state)["Where to"] == "crank-rocker-1.gif"),
 }
 
@@ -101,7 +101,7 @@ CHOICES: dict[str, tuple[str, Callable[[Player], object]]] = {
 def test_each_choice_is_taken_by_keys_and_by_mouse(player: Player, case: str, by: str) -> None:
     label, is_taken = CHOICES[case]
     opened(player)
-    row = [one.label for one in taking.rows(player.state)].index(label)
+    row = [label for label, *_ in record_dialog.rows(player.state)].index(label)
     if by in ("mouse", "wheel"):
         if by == "mouse":
             click(player, label)
@@ -111,7 +111,7 @@ def test_each_choice_is_taken_by_keys_and_by_mouse(player: Player, case: str, by
             pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=1))
             player.tick()
     else:
-        assert player.state.of(TakeDialog)
+        assert player.state.of(RecordDialog)
         for _ in range(dialog(player).row - row):
             player.press(pygame.K_UP) if by == "keys" else player.press(pygame.K_TAB, SHIFT)
         player.press(pygame.K_RIGHT)
@@ -125,7 +125,7 @@ def test_what_is_chosen_is_recorded_until_it_is_stopped(player: Player, asked: A
     click(player, "Size")
     player.type("lecture.mp4")
     assert values(player.state)["Where to"] == "lecture_"
-    assert player.state.take == TakeChoice("mp4", (800, 450))
+    assert player.state.recording_choice == RecordingChoice("mp4", (800, 450))
     player.press(pygame.K_RETURN)
     assert (player.state.mode, player.state.recording is not None) == ("play", True)
     player.tick(5)
@@ -152,7 +152,7 @@ def test_the_button_that_opens_it_stops_what_runs(player: Player, asked: Asked) 
     player.press(pygame.K_g, CTRL | SHIFT)
     assert player.state.mode == "play"
     assert player.state.toast
-    assert player.state.toast.text == taking.RUNS
+    assert player.state.toast.text == record_dialog.RUNS
     player.type("g")
     assert len(asked.commands) == 1
 
@@ -200,18 +200,18 @@ def test_what_is_not_ours_stays(player: Player, asked: Asked, here: Path, case: 
     place, made, words = REFUSED[case]
     made(here)
     before = {path: path.read_bytes() for path in here.rglob("*") if path.is_file()}
-    player.window.state = replace(player.state, take=TakeChoice(whole=whole))
+    player.window.state = replace(player.state, recording_choice=RecordingChoice(whole=whole))
     opened(player)
     player.type(place)
     player.press(pygame.K_RETURN)
-    assert player.state.of(TakeDialog)
+    assert player.state.of(RecordDialog)
     assert words in dialog(player).refusal
     assert values_in(player.window.screen.over)
     assert values_in(player.window.screen.over).error == dialog(player).refusal
     assert (asked.commands, player.state.recording) == ([], None)
     assert {path: path.read_bytes() for path in here.rglob("*") if path.is_file()} == before
     player.type("-2")
-    assert player.state.of(TakeDialog)
+    assert player.state.of(RecordDialog)
     assert dialog(player).refusal == ""
 
 
@@ -232,21 +232,21 @@ def test_a_file_that_came_meanwhile_is_not_written_over(player: Player, here: Pa
 
 def test_a_name_on_its_way_is_not_taken_twice(player: Player, asked: Asked) -> None:
     for typed, words in (("one", ""), ("./one", "is being written")):
-        player.window.state = replace(player.state, take=TakeChoice(whole=True))
+        player.window.state = replace(player.state, recording_choice=RecordingChoice(whole=True))
         opened(player)
         player.type(typed)
         player.press(pygame.K_RETURN)
-        assert words in (dialog(player).refusal if player.state.of(TakeDialog) else "")
+        assert words in (dialog(player).refusal if player.state.of(RecordDialog) else "")
     assert len(asked.commands) == 1
 
 
 def test_where_the_current_folder_is_gone_that_is_said(player: Player, here: Path, asked: Asked) -> None:
-    player.window.state = replace(player.state, take=TakeChoice(whole=True))
+    player.window.state = replace(player.state, recording_choice=RecordingChoice(whole=True))
     opened(player)
     shutil.rmtree(here)
     player.press(pygame.K_RETURN)
     player.tick()
-    said = [player.state.toast, dialog(player).refusal if player.state.of(TakeDialog) else ""]
+    said = [player.state.toast, dialog(player).refusal if player.state.of(RecordDialog) else ""]
     assert any("cannot be made" in str(words) for words in said), said
     assert asked.commands == []
 
@@ -254,20 +254,20 @@ def test_where_the_current_folder_is_gone_that_is_said(player: Player, here: Pat
 def test_places_are_proposed_and_the_last_folder_is_the_first(player: Player, here: Path) -> None:
     (here / "films").mkdir()
     opened(player)
-    assert player.state.of(TakeDialog)
+    assert player.state.of(RecordDialog)
     assert dialog(player).folder == str(here)
     assert dialog(player).places[:2] == ("recordings/crank-rocker-1", "crank-rocker-1")
     player.type("films/one")
     player.press(pygame.K_RETURN)
     player.type("g")
     opened(player)
-    assert player.state.of(TakeDialog)
+    assert player.state.of(RecordDialog)
     assert dialog(player).places[0] == "films/crank-rocker-1"
 
 
 def test_a_folder_alone_has_the_proposed_name(player: Player, here: Path, asked: Asked) -> None:
     (here / "films").mkdir()
-    player.window.state = replace(player.state, take=TakeChoice(whole=True))
+    player.window.state = replace(player.state, recording_choice=RecordingChoice(whole=True))
     opened(player)
     player.type("films/")
     player.press(pygame.K_RETURN)
@@ -299,7 +299,7 @@ def test_what_else_is_kept_is_done_from_there(player: Player) -> None:
 def test_it_takes_the_place_of_what_is_open(player: Player, before: str) -> None:
     player.window.state = advance(player.state, [Action(before)])
     player.tick(2)
-    player.window.state = advance(player.state, [Action("taking")])
+    player.window.state = advance(player.state, [Action("record_dialog")])
     player.tick(2)
     over = player.window.screen.over
     assert values_in(over)
@@ -310,7 +310,7 @@ def test_it_takes_the_place_of_what_is_open(player: Player, before: str) -> None
 
 
 def test_in_a_game_there_is_no_period(player: Player) -> None:
-    player.window.state = replace(player.state, take=TakeChoice(whole=True))
+    player.window.state = replace(player.state, recording_choice=RecordingChoice(whole=True))
     player.press(pygame.K_F3)
     opened(player)
     assert values(player.state)["Length"] == "until it is stopped"
@@ -323,14 +323,18 @@ def test_in_a_game_there_is_no_period(player: Player) -> None:
 def test_a_tape_shows_the_dialog_and_what_is_chosen() -> None:
     start = begin(load("crank-rocker"))
     actions = (
-        *(Action("taking"), Action("take_places", "/somewhere\nrecordings/one\ntwo"), Action("take_row", -1)),
-        *(Action("take_turn", 1), Action("take_type", "x"), Action("take_refused", "not there")),
+        *(
+            Action("record_dialog"),
+            Action("record_places", "/somewhere\nrecordings/one\ntwo"),
+            Action("record_row", -1),
+        ),
+        *(Action("record_turn", 1), Action("record_type", "x"), Action("record_refused", "not there")),
     )
     assert all(map(is_taped, actions))
     tape = Tape(start, 20, tuple(enumerate((*actions, Action("erase_target"), Action("back")), start=1)))
     states = [*tape.states()]
-    assert [bool(one.of(TakeDialog)) for one in states[1:10]] == [True] * 7 + [False] * 2
-    chosen, refused = (one.of(TakeDialog) for one in (states[4], states[6]))
+    assert [bool(one.of(RecordDialog)) for one in states[1:10]] == [True] * 7 + [False] * 2
+    chosen, refused = (one.of(RecordDialog) for one in (states[4], states[6]))
     assert chosen
     assert chosen.place == "two"
     assert refused
@@ -340,8 +344,8 @@ def test_a_tape_shows_the_dialog_and_what_is_chosen() -> None:
 def test_a_closed_dialog_takes_nothing() -> None:
     state = begin(load("crank-rocker"))
     for action in (
-        *(Action("take_turn", 1), Action("take_row", 1), Action("take_type", "a")),
-        *(Action("erase_target"), Action("take_refused", "a"), Action("take_places", "a\nb")),
+        *(Action("record_turn", 1), Action("record_row", 1), Action("record_type", "a")),
+        *(Action("erase_target"), Action("record_refused", "a"), Action("record_places", "a\nb")),
     ):
         assert replace(advance(state, [action]), frame=0, touched=0) == state
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from linkanim.frozen import frozen
 from linkanim.picture.lists import EditRow, Panel
@@ -33,11 +33,11 @@ from linkanim.player.keys import (
 from linkanim.player.state import (
     Format,
     Mode,
+    RecordingChoice,
     Resolver,
     Rule,
+    RunningRecording,
     State,
-    Take,
-    TakeChoice,
     with_effect,
     with_toast,
 )
@@ -64,32 +64,28 @@ _START = 4
 Step = TypeVar("Step")
 
 
-class TakeRow(NamedTuple):
-    """A row of the dialog: its name, its value or the key that does the same, its action."""
-
-    label: str
-    value: str
-    action: Action | None = None
+Row = tuple[str, str, Action | None]
+"""A row of the dialog: its name, its value or the key that does the same, its action."""
 
 
-def rows(state: State) -> tuple[TakeRow, ...]:
+def rows(state: State) -> tuple[Row, ...]:
     """Return the rows of the open dialog: the choices, the row that begins, and other ways to keep things."""
-    dialog, choice = state.of(TakeDialog) or TakeDialog(), of_a_kind(state)
+    dialog, choice = state.of(RecordDialog) or RecordDialog(), of_a_kind(state)
     typed = f"{dialog.typed}_" if dialog.typed else f"{dialog.place}.{choice.format}"
     keys = {action: (said(words), key) for words, key, action in commands(RUNNING)}
     return (
-        TakeRow(said("Format"), choice.format.upper()),
-        TakeRow(said("Size"), _sized(choice.size)),
-        TakeRow(said("Length"), _period(state) if choice.whole else said("until it is stopped")),
-        TakeRow(said("Where to"), typed),
-        TakeRow(said("Record"), "Enter", Action("take_start")),
-        *(TakeRow(*keys[action], action) for action in KEEPS),
+        (said("Format"), choice.format.upper(), None),
+        (said("Size"), _sized(choice.size), None),
+        (said("Length"), _period(state) if choice.whole else said("until it is stopped"), None),
+        (said("Where to"), typed, None),
+        (said("Record"), "Enter", Action("record_start")),
+        *((*keys[action], action) for action in KEEPS),
     )
 
 
-def of_a_kind(state: State) -> TakeChoice:
+def of_a_kind(state: State) -> RecordingChoice:
     """Return the choice as it applies now: a game has no period."""
-    return state.take._replace(whole=state.take.whole and state.game is None)
+    return state.recording_choice._replace(whole=state.recording_choice.whole and state.game is None)
 
 
 def _sized(size: tuple[int, int] | None) -> str:
@@ -103,9 +99,9 @@ def _period(state: State) -> str:
 
 def target(state: State) -> str:
     """Return the file that the open dialog names; empty for a free name."""
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     place = dialog.place if dialog else ""
-    return f"{place}.{state.take.format}" if place else ""
+    return f"{place}.{state.recording_choice.format}" if place else ""
 
 
 # Actions in the dialog.
@@ -116,13 +112,13 @@ def toggle(state: State, _: None) -> State:
     if state.recording:
         return with_toast(state, said(RUNS))
     bare = state.unlisted.unhelped
-    return bare.without(TakeDialog) if state.of(TakeDialog) else bare.with_mode(TakeDialog(row=_START))
+    return bare.without(RecordDialog) if state.of(RecordDialog) else bare.with_mode(RecordDialog(row=_START))
 
 
 def propose(state: State, lines: str) -> State:
     """Keep the current folder and the proposed places, one a line."""
     folder, *names = lines.splitlines() or [""]
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     return state.with_mode(replace(dialog, folder=folder, places=tuple(names))) if dialog else state
 
 
@@ -133,10 +129,10 @@ def choose(state: State, further: int) -> State:
 
 def turn(state: State, steps: int) -> State:
     """Take the chosen row's value that is `steps` further on."""
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     if dialog is None:
         return state
-    choice, at = state.take, dialog.row
+    choice, at = state.recording_choice, dialog.row
     if at == 0:
         choice = choice._replace(format=_after(FORMATS, choice.format, steps))
     elif at == 1:
@@ -145,7 +141,7 @@ def turn(state: State, steps: int) -> State:
         choice = choice._replace(whole=choice.whole ^ bool(steps % 2) and state.game is None)
     elif at == PLACE and dialog.places:
         return _on(state, lambda one: replace(one, typed="", at=(one.at + steps) % len(one.places)))
-    return replace(_on(state, lambda one: one), take=choice)
+    return replace(_on(state, lambda one: one), recording_choice=choice)
 
 
 def _after(steps: tuple[Step, ...], now: Step, by: int) -> Step:
@@ -154,33 +150,33 @@ def _after(steps: tuple[Step, ...], now: Step, by: int) -> Step:
 
 def write(state: State, text: str) -> State:
     """Add to the typed place; an ending that names a format chooses that format."""
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     return _typed(state, (dialog.typed + text)[:_LONGEST]) if dialog else state
 
 
 def erase(state: State, _: None) -> State:
     """Erase the last letter of the place, even of a proposed one."""
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     return _typed(state, dialog.place[:-1]) if dialog else state
 
 
 def _typed(state: State, text: str) -> State:
     form = next((one for one in FORMATS if text.lower().endswith(f".{one}")), None)
     if form:
-        state = replace(state, take=state.take._replace(format=form))
+        state = replace(state, recording_choice=state.recording_choice._replace(format=form))
         text = text[: -len(form) - 1]
     return _on(state, lambda one: replace(one, row=PLACE, typed=text))
 
 
 def refused(state: State, reason: str) -> State:
     """Say why it cannot be written there."""
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     return state.with_mode(replace(dialog, row=PLACE, refusal=reason)) if dialog else state
 
 
-def _on(state: State, work: Callable[[TakeDialog], TakeDialog]) -> State:
+def _on(state: State, work: Callable[[RecordDialog], RecordDialog]) -> State:
     """Return the state with its dialog changed, and nothing refused."""
-    dialog = state.of(TakeDialog)
+    dialog = state.of(RecordDialog)
     return state.with_mode(replace(work(dialog), refusal="")) if dialog else state
 
 
@@ -189,27 +185,27 @@ def _on(state: State, work: Callable[[TakeDialog], TakeDialog]) -> State:
 
 def _opened(window: Outside, _: Value) -> Iterator[Action]:
     """Yield the actions that open the dialog with free places, or close it."""
-    yield Action("taking")
-    if window.state.of(TakeDialog):
-        yield Action("take_places", window.proposed_targets())
+    yield Action("record_dialog")
+    if window.state.of(RecordDialog):
+        yield Action("record_places", window.proposed_targets())
 
 
 def _started(window: Outside, _: Value) -> Iterator[Action]:
     """Yield what Enter means in the dialog: a recording begins, or another command is done."""
-    dialog = window.state.of(TakeDialog)
+    dialog = window.state.of(RecordDialog)
     if dialog is None:
         return
-    does = rows(window.state)[dialog.row].action
-    if does and does.name != "take_start":
+    _, _, does = rows(window.state)[dialog.row]
+    if does and does.name != "record_start":
         yield Action("back")
         yield from window.resolved(does)
         return
     file = target(window.state)
     if reason := window.refused_target(file):
-        yield Action("take_refused", reason)
+        yield Action("record_refused", reason)
         return
     yield Action("back")
-    yield Action("take_into", file)
+    yield Action("record_into", file)
 
 
 # Actions that record.
@@ -221,14 +217,15 @@ def into(state: State, file: str) -> State:
     if choice.whole:
         return with_effect(state, "period", file)
     return replace(
-        with_effect(state, "record", choice.format), recording=Take(choice.format, state.frame, file)
+        with_effect(state, "record", choice.format),
+        recording=RunningRecording(choice.format, state.frame, file),
     )
 
 
 def record(state: State, form: Format) -> State:
     """Start a recording, or stop the one that runs, whatever its format."""
     if state.recording is None:
-        return replace(with_effect(state, "record", form), recording=Take(form, state.frame))
+        return replace(with_effect(state, "record", form), recording=RunningRecording(form, state.frame))
     return replace(with_effect(state, "render", state.recording.format), recording=None)
 
 
@@ -240,7 +237,7 @@ def period(state: State, form: Format) -> State:
 
 
 @frozen
-class TakeDialog(Mode):
+class RecordDialog(Mode):
     """The open dialog of a recording: the chosen row, and where the recording is to be written.
 
     That place is the `typed` one, else number `at` of the proposed `places`. These are files without their
@@ -258,34 +255,34 @@ class TakeDialog(Mode):
         "record",
         {
             "recording": (
-                KeyRow("↑ ↓, Tab", "choose a row", both("up", "down", "take_row") + tabs("take_row")),
+                KeyRow("↑ ↓, Tab", "choose a row", both("up", "down", "record_row") + tabs("record_row")),
                 KeyRow(
                     "← →, click",
                     "format, size, length; another place that is proposed",
-                    both("left", "right", "take_turn"),
+                    both("left", "right", "record_turn"),
                 ),
                 KeyRow("type", "the folder and name to write to; .gif or .mp4 chooses the format"),
                 KeyRow(
                     "Enter",
                     "record; Esc does not",
-                    enter("take_start", "erase_target") + on("escape", "back"),
+                    enter("record_start", "erase_target") + on("escape", "back"),
                 ),
             )
         },
-        TypedKeys("take_type"),
+        TypedKeys("record_type"),
         alone=True,
     )
-    bar = (BACK_BAR, BarEntry("done", Action("take_start"), 1))
+    bar = (BACK_BAR, BarEntry("done", Action("record_start"), 1))
     actions: ClassVar[Mapping[str, Rule]] = {
-        "taking": Rule(rules.nothing, toggle),
-        "take_places": Rule(rules.text, propose),  # the current folder and places to write to, one a line
-        "take_row": Rule(rules.whole, choose),  # rows further down
-        "take_turn": Rule(rules.whole, turn),  # values further on
-        "take_type": Rule(rules.text, write),
+        "record_dialog": Rule(rules.nothing, toggle),
+        "record_places": Rule(rules.text, propose),  # the current folder and places to write to, one a line
+        "record_row": Rule(rules.whole, choose),  # rows further down
+        "record_turn": Rule(rules.whole, turn),  # values further on
+        "record_type": Rule(rules.text, write),
         "erase_target": Rule(rules.nothing, erase),
-        "take_refused": Rule(rules.text, refused),  # why it cannot be written there
+        "record_refused": Rule(rules.text, refused),  # why it cannot be written there
     }
-    meanings: ClassVar[Mapping[str, Resolver]] = {"taking": _opened, "take_start": _started}
+    meanings: ClassVar[Mapping[str, Resolver]] = {"record_dialog": _opened, "record_start": _started}
     is_listed, leads = True, True
 
     @property
@@ -299,8 +296,8 @@ class TakeDialog(Mode):
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the dialog, in the place of a game's panel."""
         shown = tuple(
-            EditRow(one.label, one.value, n == self.row, draft=n == PLACE and self.typed != "")
-            for n, one in enumerate(rows(state))
+            EditRow(label, value, n == self.row, draft=n == PLACE and self.typed != "")
+            for n, (label, value, _) in enumerate(rows(state))
         )
         is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
         facts = () if is_whole or not self.folder else (said("in {folder}", folder=self.folder),)
@@ -317,9 +314,9 @@ class TakeDialog(Mode):
             return None
         if number < 0:
             return ()
-        does = rows(screen.state)[number].action
-        to = Action("take_row", number - self.row)
+        _, _, does = rows(screen.state)[number]
+        to = Action("record_row", number - self.row)
         if gesture.kind == "wheel":
-            return () if does else (to, Action("take_turn", gesture.notches))
+            return () if does else (to, Action("record_turn", gesture.notches))
         mouse.drag = "bar"
-        return (to, Action("take_start") if does else Action("take_turn", 1))
+        return (to, Action("record_start") if does else Action("record_turn", 1))
