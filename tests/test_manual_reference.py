@@ -129,12 +129,12 @@ def quantities(more: Path) -> str:
         words = quantity.words.rpartition(": ")[2].replace("Transmission", "transmission")
         if ".com_" in kind:
             words += " of the centre of mass"
-        shown = quantity.shown_unit(unit).replace(unit, "length") if "{}" in quantity.unit else ""
+        shown = quantity.display_unit(unit).replace(unit, "length") if "{}" in quantity.unit else ""
         return (
             f"`{kind}`",
             symbol,
             words[:1].lower() + words[1:],
-            shown or quantity.shown_unit(unit),
+            shown or quantity.display_unit(unit),
             (f"`{quantity.token}` of `{scene}`" if scene != "–" else "–"),
         )
 

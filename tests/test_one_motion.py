@@ -234,7 +234,7 @@ def test_every_quantity_is_the_same_in_json_csv_chart_hud_and_api(name: str) -> 
                 _agree(quantity, values, [_at(row, quantity.path) for row in printed], 0.0)
                 _agree(quantity, values, [_cell(row, quantity.path) for row in cells], 0.0)
             charted = series_of(scene, quantity, solved).values
-            meant = np.asarray(quantity.shown(solved), float).reshape(charted.shape)
+            meant = np.asarray(quantity.displayed(solved), float).reshape(charted.shape)
             _agree(quantity, meant, charted, 1e3 * near)
         for pose in poses:
             _hud_agrees(scene, pose)
@@ -271,7 +271,7 @@ def _hud_agrees(scene: Scene, pose: Pose) -> None:
         about[f"{item.name} {word}, {part}"] = f"{item.name}.{part}"
     for label, token in about.items():
         if label in shown and token in known:
-            value = float(known[token].shown(pose))
+            value = float(known[token].displayed(pose))
             digits = shown[label].partition(".")[2].partition(" ")[0]
             assert _number(shown[label]) == pytest.approx(value, abs=0.51 * 10.0 ** -len(digits)), label
 

@@ -273,7 +273,7 @@ def _in_words(scene: Scene, pose: Pose, found: Tree) -> Iterator[str]:
             yield f"{joint}: {cells} is not what its row has"
     for quantity in recorded(scene.linkage):
         if quantity.path == tuple(quantity.token.split(".")):
-            shown = significant(float(quantity.shown(pose)), 7)
+            shown = significant(float(quantity.displayed(pose)), 7)
             if not re.search(rf"^{re.escape(quantity.words)} .*\s{re.escape(shown)}$", words, re.MULTILINE):
                 yield f"{quantity.token}: {shown} is not in the table"
 
@@ -284,7 +284,7 @@ KIND = ("position", "velocity", "acceleration")
 def _on_a_chart(scene: Scene, quantity: Quantity, pose: Pose) -> Iterator[str]:
     window = with_side(layout((1280, 720)), 1, 0, beside=False)
     chart = chart_panel(_figure(scene), quantity.token, window, pen_for(window, Type(), LIGHT))
-    values, said = chart.values_at(pose), np.atleast_1d(np.asarray(quantity.shown(pose), float))
+    values, said = chart.values_at(pose), np.atleast_1d(np.asarray(quantity.displayed(pose), float))
     whole = 360.0 if chart.series.unit == "°" else math.inf
     for value, own in zip(values.tolist(), said.tolist(), strict=True):
         far = abs(math.remainder(value - own, whole)) > 1e-9 * abs(own) if math.isfinite(own) else False
@@ -306,8 +306,8 @@ def _figure(scene: Scene) -> Figure:
 def _in_the_hud(scene: Scene, pose: Pose) -> Iterator[str]:
     told = dict(hud(scene, pose))
     for one in measured(scene):
-        value = one.quantity.shown(pose)
-        wanted = f"{stepped(float(value), one.step)} {one.quantity.shown_unit(scene.length_unit)}"
+        value = one.quantity.displayed(pose)
+        wanted = f"{stepped(float(value), one.step)} {one.quantity.display_unit(scene.length_unit)}"
         if told[one.label] != wanted:
             yield f"{one.quantity.token}: {value} is {told[one.label]!r} in the HUD"
 
@@ -316,7 +316,7 @@ def _in_a_report(scene: Scene, pose: Pose) -> Iterator[str]:
     instant, pace = Instant(pose.phase), Pace(scene.linkage.drive.speed, "")
     for quantity in scene.quantities.values():
         if len(quantity.columns) == 1:
-            told, own = _values(scene).of(quantity, instant, pace), quantity.shown(pose)
+            told, own = _values(scene).of(quantity, instant, pace), quantity.displayed(pose)
             if repr(float(told)) != repr(float(own)):
                 yield f"{quantity.token}: {own!r} is {told!r} in a report"
 
@@ -331,7 +331,7 @@ def shared_otherwise(scene: Scene, phase: float) -> Iterator[str]:
     data: Any = _shared(scene)
     geared = any("gear" in joint for joint in scene.document.get("joints", {}).values())
     for one in measured(scene):
-        own = float(one.quantity.shown(scene.pose(phase)))
+        own = float(one.quantity.displayed(scene.pose(phase)))
         value = read_tables.row(data, one.label, phase)
         least = 1e-6 * (_largest(scene, one.quantity.token) + 1e-2 * one.step)
         if geared:  # a table's steps are those of the input, whose quick gears go farther in one
@@ -344,7 +344,7 @@ def shared_otherwise(scene: Scene, phase: float) -> Iterator[str]:
 @cache
 def _largest(scene: Scene, token: str) -> float:
     """Return the greatest size of a quantity at some phases, where it is bounded."""
-    values = np.abs(np.asarray(scene.quantities[token].shown(scene.cycle(97)), float))
+    values = np.abs(np.asarray(scene.quantities[token].displayed(scene.cycle(97)), float))
     return float(values[np.isfinite(values)].max(initial=0.0))
 
 
@@ -359,7 +359,7 @@ def explained_otherwise(scene: Scene, phase: float) -> Iterator[str]:
     """Yield what a worked solution comes to that a pose does not say."""
     pose, speed = scene.pose(phase), scene.linkage.drive.speed
     for result in solution(PoseRequest(scene, "phase", phase, speed)).results:
-        own = float(scene.quantities[result.token].shown(pose))
+        own = float(scene.quantities[result.token].displayed(pose))
         off = abs(result.value.value - own)
         off = abs(math.remainder(off, 360.0)) if result.unit == "°" else off
         if not off <= 2e-3 * abs(own) + 2 * result.least:

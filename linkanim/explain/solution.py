@@ -581,7 +581,7 @@ def _compared(solution: Solution) -> Iterator[tuple[Outcome, float]]:
     """Yield each result with the solver's value, an angle on the same turn as the result."""
     motion, quantities = solution.request.motion(), solution.request.scene.quantities
     for result in solution.results:
-        true, worked_out = float(quantities[result.token].shown(motion)), result.value.value
+        true, worked_out = float(quantities[result.token].displayed(motion)), result.value.value
         yield (
             result,
             worked_out + math.remainder(true - worked_out, 360) if result.unit == "°" else true,

@@ -731,17 +731,17 @@ class Coordinate(NamedTuple):
         """The token of its rate among the quantities."""
         return f"input.{self.velocity.replace(' ', '_')}"
 
-    def shown(self, value: Any) -> Any:
+    def displayed(self, value: Any) -> Any:
         """Return a value, or an array of them, as people read it: angles in degrees."""
         return value * (180.0 / math.pi) if self.is_angle else value
 
-    def shown_unit(self, length_unit: str) -> str:
-        """Return the unit that goes with `shown`."""
+    def display_unit(self, length_unit: str) -> str:
+        """Return the unit that goes with `displayed`."""
         return "°" if self.is_angle else length_unit
 
     def text(self, value: float, length_unit: str, step: float) -> str:
         """Return a value in words, to that step: 87.0°, 12.5 mm."""
-        return stepped(self.shown(value), step) + ("°" if self.is_angle else f" {length_unit}")
+        return stepped(self.displayed(value), step) + ("°" if self.is_angle else f" {length_unit}")
 
 
 ANGLE = Coordinate(to_say("angle"), "θ", "rad", to_say("angular velocity"))

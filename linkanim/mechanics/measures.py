@@ -33,7 +33,7 @@ from linkanim.words import to_say
 
 # What a solved number says at a phase: a value, 0, unbounded, or no value at all.
 #
-# **How to ask.** `scene.quantities[token].read(motion)`, of a Motion or a Pose, and `.shown(motion)` with
+# **How to ask.** `scene.quantities[token].read(motion)`, of a Motion or a Pose, and `.displayed(motion)` with
 # angles in degrees. Every output asks in this way, so that all outputs agree:
 #
 # - a finite number is the value;

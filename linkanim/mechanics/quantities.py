@@ -179,7 +179,7 @@ class Quantity:
         value = self.computed(motion)
         return None if value is None else as_output(motion, value, self.unit, self.order)
 
-    def shown(self, motion: Any) -> Any:
+    def displayed(self, motion: Any) -> Any:
         """Return the values as people read them: angles in degrees."""
         value = self.read(motion)
         return np.degrees(value) if self.unit == "rad" else value
@@ -211,8 +211,8 @@ class Quantity:
             finite.size and np.ptp(finite) > max(LEVEL * np.abs(finite).max(), 10 * self.rounding(cycle))
         )
 
-    def shown_unit(self, length_unit: str) -> str:
-        """Return the unit that goes with `shown`."""
+    def display_unit(self, length_unit: str) -> str:
+        """Return the unit that goes with `displayed`."""
         return "°" if self.unit == "rad" else self.unit.format(length_unit)
 
     def title(self, length_unit: str) -> str:
@@ -231,7 +231,7 @@ class Quantity:
 
     def headed(self, length_unit: str) -> str:
         """Return what a column is headed: "ω₄ (rad/s)", without a unit the symbol alone."""
-        unit = self.shown_unit(length_unit)
+        unit = self.display_unit(length_unit)
         return f"{self.symbol} ({unit})" if unit else self.symbol
 
 

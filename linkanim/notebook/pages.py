@@ -100,10 +100,10 @@ def _table(motion: Motion) -> str:
         list(_tabulated(motion)),
     )
     name = said("input {coordinate}", coordinate=said(coordinate.name))
-    titles = [f"{name} ({coordinate.shown_unit(unit)})", said("phase (°)")]
+    titles = [f"{name} ({coordinate.display_unit(unit)})", said("phase (°)")]
     titles += [one.headed(unit) for one in shown]
-    inputs = coordinate.shown(motion.coordinate), np.degrees(motion.phase)
-    columns = (np.ravel(column) for column in (*inputs, *(one.shown(motion) for one in shown)))
+    inputs = coordinate.displayed(motion.coordinate), np.degrees(motion.phase)
+    columns = (np.ravel(column) for column in (*inputs, *(one.displayed(motion) for one in shown)))
     rows = np.stack(list(columns), axis=1)
     head = "".join(f"<th>{symbol(title)}</th>" for title in titles)
     cut = range(_ENDS, len(rows) - _ENDS)
@@ -134,7 +134,7 @@ def _chart(motion: Motion, quantity: Quantity) -> str:
     coordinate, steps = motion.mechanism.linkage.drive.coordinate, np.diff(motion.coordinate)
     turns = coordinate.is_angle and bool((steps > 0).all() or (steps < 0).all())
     x = np.degrees(motion.coordinate if turns else motion.phase)
-    values = np.asarray(quantity.shown(motion), float)
+    values = np.asarray(quantity.displayed(motion), float)
     type_, parts = letters(), layout(_CHART)
     pen = pen_for(parts, type_, LIGHT)
     y_axis = around(values, most=4)

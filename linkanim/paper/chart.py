@@ -195,7 +195,7 @@ def _thinned(points: Sequence[complex], apart: float) -> Iterator[complex]:
 
 
 def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
-    unit = "°" if curve.quantity.shown_unit(curves.scene.length_unit) == "°" else ""
+    unit = "°" if curve.quantity.display_unit(curves.scene.length_unit) == "°" else ""
     value = f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit}"
     return said("{value} at {place}", value=value, place=curves.place_words(peak.x))
 
@@ -379,7 +379,7 @@ class Page(DrawnPage):
         if len(ranges) == _TOGETHER and all(low < 0 < high for low, high in ranges):
             ranges = zeros_level(ranges)
         most = max(min(round(high / (2.0 * self.pen.small)), 6), 3)
-        units = [side[0].quantity.shown_unit(self.curves.scene.length_unit) for side in sides]
+        units = [side[0].quantity.display_unit(self.curves.scene.length_unit) for side in sides]
         least = _FEWEST if high > (_FEWEST + 1) * self.pen.small else 0
         return [
             linear(*ends, most=most, unit=unit, least=least) for ends, unit in zip(ranges, units, strict=True)
@@ -427,7 +427,7 @@ class Page(DrawnPage):
         unit = self.curves.scene.length_unit
         if len(known) == 1 and not self.brief and (self._worded or self._in_strips):
             return known[0].title(unit)
-        shown = known[0].shown_unit(unit)
+        shown = known[0].display_unit(unit)
         if self.brief and len(known) > 1 and shown:
             return f"({shown})"
         return ", ".join(one.symbol for one in known) + (f" ({shown})" if shown else "")

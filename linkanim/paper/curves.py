@@ -74,7 +74,7 @@ class Curve:
 
     def solved(self, scene: Scene, phases: Floats) -> Floats:
         """Return its values at `phases` (rad), shape (n,); an angle may differ by whole turns."""
-        values = np.asarray(self.quantity.shown(self.pace.motion(scene, phases)), float)
+        values = np.asarray(self.quantity.displayed(self.pace.motion(scene, phases)), float)
         return values[:, self.quantity.columns.index(self.label)] if values.ndim == 2 else values
 
 
@@ -216,7 +216,7 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     value = float(curve.solved(scene, np.array([phase]))[0])
     if curve.quantity.unit == "rad":
         value += 360 * round((curve.values[index] - value) / 360)
-    angle = scene.linkage.drive.coordinate.shown(scene.pose(phase, 0).coordinate)
+    angle = scene.linkage.drive.coordinate.displayed(scene.pose(phase, 0).coordinate)
     way = slice(None, None, 1 if curve.phases[-1] > curve.phases[0] else -1)
     x = float(np.interp(phase, curve.phases[way], curve.x[way]))
     return Peak(x, value, angle % 360 if scene.info.full_turn else angle)
@@ -421,7 +421,7 @@ def _phases(curves: Curves, curve: Curve, column: Floats, over: Over) -> Floats:
 def _differences(curves: Curves, curve: Curve, phases: Floats, values: Floats) -> tuple[Floats, Floats]:
     """Return our values, an angle in the same turn as the table's, and the table's differences from them."""
     motion = curves.scene.solve(phase=phases, speed=curve.pace.speed)
-    differences = values - np.asarray(curve.quantity.shown(motion), float)
+    differences = values - np.asarray(curve.quantity.displayed(motion), float)
     if curve.quantity.unit == "rad":
         differences = np.remainder(differences + 180, 360) - 180
     return values - differences, differences

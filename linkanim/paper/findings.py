@@ -123,7 +123,7 @@ class Values:
 
     def of(self, quantity: Quantity, instant: Instant, pace: Pace) -> float:
         """Return the value of a quantity in the unit that is shown (degrees), NaN where it has none."""
-        return float(quantity.shown(self._motion(instant.phase, pace)))
+        return float(quantity.displayed(self._motion(instant.phase, pace)))
 
     def changes(self, quantity: Quantity) -> bool:
         """Return whether a quantity has more than one value over the cycle, rounding errors aside."""
@@ -239,7 +239,7 @@ class Family(NamedTuple):
         for measure, symbol in self.measures.items():
             quantities = [one for _, part in self.parts if (one := _quantity(values, part, measure))]
             if quantities:
-                unit = quantities[0].shown_unit(values.scene.length_unit)
+                unit = quantities[0].display_unit(values.scene.length_unit)
                 order = max(one.order for one in quantities)
                 if order or first:
                     yield from (Column(symbol, unit, measure, pace) for pace in (paces if order else (None,)))

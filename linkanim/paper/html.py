@@ -274,7 +274,7 @@ def sheet_parts(sheet: Sheet, length_unit: str, place: str, speeds: Sequence[str
             lines = "".join(
                 # without what the heading says
                 f"<tr><th scope='row'>{escape(one.measure)}</th><td>{symbol(one.symbol)}</td>"
-                f"{_numbers(values)}<td>{escape(one.shown_unit(length_unit))}</td></tr>"
+                f"{_numbers(values)}<td>{escape(one.display_unit(length_unit))}</td></tr>"
                 for one, values in rows
             )
             yield TablePart(

@@ -219,7 +219,7 @@ class PolarPage(DrawnPage):
         motion = head.pace.motion(self.scene, self.phases[k : k + 1])
         place = float(np.asarray(motion.coordinate)[0])
         value = place % math.tau if self.scene.info.full_turn else place
-        unit = self.known[0].shown_unit(self.scene.length_unit)
+        unit = self.known[0].display_unit(self.scene.length_unit)
         where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
         largest = float(sizes[k])
         shown = f"{stepped(largest, largest / 2000)} {unit}"

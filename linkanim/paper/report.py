@@ -351,7 +351,7 @@ class Report:
             words = self.scene.quantities[token].words
             drawn = Page(curves, size=_CHART, brief=True, measured=measured)
             worst = measured.worst
-            unit = self.scene.quantities[token].shown_unit(self.scene.length_unit)
+            unit = self.scene.quantities[token].display_unit(self.scene.length_unit)
             off = f"{rounded(abs(float(measured.differences[worst])), 3)} {unit}".strip()
             at = f"{measured.inputs[worst]:.6g} {'s' if measured.over == 'time' else '°'}".replace(" °", "°")
             chart = FigurePart(
@@ -390,8 +390,8 @@ class Report:
         rows = []
         for token, values in printed.values.items():
             quantity = scene.quantities[token]
-            ours = float(quantity.shown(motion))
-            unit = quantity.shown_unit(scene.length_unit)
+            ours = float(quantity.displayed(motion))
+            unit = quantity.display_unit(scene.length_unit)
             # a length in the table is in metres
             per = scene.linkage.metre if "{}" in quantity.unit else 1.0
             row = [f"{quantity.words} {quantity.symbol} ({unit})", significant(ours, _PRINTED)]

@@ -259,7 +259,7 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
 def _input_places(curves: Curves, phases: Floats) -> list[str]:
     """Return where the input is at phases, in words, in its order."""
     angles = (float(curves.scene.pose(float(phase), 0).coordinate) for phase in phases)
-    shown = sorted(curves.scene.linkage.drive.coordinate.shown(angle) for angle in angles)
+    shown = sorted(curves.scene.linkage.drive.coordinate.displayed(angle) for angle in angles)
     return [_place(curves, angle % 360 if curves.scene.info.full_turn else angle) for angle in shown]
 
 
@@ -295,7 +295,7 @@ def _place(curves: Curves, angle: float) -> str:
 
 
 def _value(curves: Curves, curve: Curve, value: float) -> str:
-    unit = curve.quantity.shown_unit(curves.scene.length_unit)
+    unit = curve.quantity.display_unit(curves.scene.length_unit)
     most = float(np.abs(curve.values).max())
     number = typeset(rounded(0.0 if abs(value) <= _ROUNDING * most else value, _DIGITS))
     return f"{number}{'' if unit == '°' else ' '}{unit}".rstrip()

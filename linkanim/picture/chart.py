@@ -372,7 +372,7 @@ class ChartPanel:
 
     def values_at(self, pose: Pose) -> Floats:
         """Return the pose's own values; an angle is given in the turn of the curve there."""
-        shown: Floats = np.atleast_1d(np.asarray(self.quantity.shown(pose), float))
+        shown: Floats = np.atleast_1d(np.asarray(self.quantity.displayed(pose), float))
         if self.series.unit != "°":
             return shown
         x, values = self.curves

@@ -184,10 +184,10 @@ def charted(scene: Scene) -> dict[str, str]:
 
 def _row(one: MeasuredRow, length_unit: str) -> Row:
     """Return the row that puts a quantity into words; None where it is not known."""
-    quantity, unit = one.quantity, one.quantity.shown_unit(length_unit)
+    quantity, unit = one.quantity, one.quantity.display_unit(length_unit)
 
     def value(pose: Pose) -> str | None:
-        value = quantity.shown(pose)
+        value = quantity.displayed(pose)
         return None if value is None else f"{stepped(float(value), one.step)} {unit}"
 
     return Row(one.rank, one.label, value)

@@ -88,9 +88,9 @@ def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
 
 def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
     """Return a quantity of a cycle that is already solved."""
-    values = np.asarray(quantity.shown(cycle), float)
+    values = np.asarray(quantity.displayed(cycle), float)
     columns = values if values.ndim == 2 else values[:, None]
-    return Series(cycle.phase, columns, quantity.shown_unit(scene.length_unit), quantity.columns)
+    return Series(cycle.phase, columns, quantity.display_unit(scene.length_unit), quantity.columns)
 
 
 # The words for the input, and the unit in which its speed is shown.

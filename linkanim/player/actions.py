@@ -206,7 +206,7 @@ def go(state: State, _: None) -> State:
         return with_toast(state, said("{text} is no number", text=text))
     place = radians(value) if scene.linkage.drive.coordinate.is_angle else value
     if not isfinite(place) or not mechanism.comes_to(place):
-        unit = scene.linkage.drive.coordinate.shown_unit(f" {scene.length_unit}")
+        unit = scene.linkage.drive.coordinate.display_unit(f" {scene.length_unit}")
         reach = scene.info.ranges("{}…{}", lambda end: driven_words(scene, end))
         words = said(
             "the {link} does not reach {place}; it goes {reach}",

@@ -119,12 +119,12 @@ def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
 
     A crank's angle is given within one turn, as in the HUD.
     """
-    value = one.shown(pose)
+    value = one.displayed(pose)
     parts = value if isinstance(value, tuple | list | np.ndarray) and np.ndim(value) else (value,)
     if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
         parts = tuple(float(significant(float(part) % 360, 4)) % 360 for part in parts)
     values = ", ".join(four_digits(float(part)) for part in parts if part is not None)
-    unit = one.shown_unit(scene.length_unit)
+    unit = one.display_unit(scene.length_unit)
     return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
 
 

@@ -30,7 +30,7 @@ _SPANS = ("length", "rate")
 def law_of(scene: Scene, quantity: Quantity) -> Law | None:
     """Return how a quantity follows from joints; None where it does not, as one of forces does not."""
     motion = scene.solve(phase=_PHASES, speed=1.0)
-    true = np.asarray(quantity.shown(motion), float)
+    true = np.asarray(quantity.displayed(motion), float)
     for law in _candidates(scene, quantity.token):
         values = _read(law, motion)
         gain, shift = degrees(1.0) if quantity.unit == "rad" else 1.0, 0.0

@@ -560,7 +560,7 @@ class Mobile:
     def _driven(self, light: Any, dark: Any) -> Mover:
         colours = self.pairs.variables(light.colours, dark.colours)
         drive = self.light.scene.linkage.drive
-        read = abs(drive.speed) / drive.coordinate.shown(1.0)
+        read = abs(drive.speed) / drive.coordinate.displayed(1.0)
         return {"gain": read / light.fastest, "line": light.gauge.line, "colours": colours}
 
     def _coil(self, light: Coil, dark: Coil) -> Mover:

@@ -82,10 +82,10 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     drive = scene.linkage.drive.coordinate
 
     def where(motion: Motion) -> Any:
-        return drive.shown(motion.coordinate)
+        return drive.displayed(motion.coordinate)
 
     turn = 360 if scene.info.full_turn else 0
-    unit = drive.shown_unit(scene.length_unit)
+    unit = drive.display_unit(scene.length_unit)
     body = scene.linkage.driven.body
     driven = link_words(scene).get(body.name) if body else None
     of_input = {"of": [f"l {driven}"] if driven else []}
@@ -93,7 +93,7 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     title = said("input speed") if scene.info.full_turn else said("input rate")
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]} | of_input
     for _, label, of, step in measured(scene):
-        row = _row(scene, label, of.shown_unit(scene.length_unit), step, (of.shown, (speed, -speed)))
+        row = _row(scene, label, of.display_unit(scene.length_unit), step, (of.displayed, (speed, -speed)))
         yield row | {"law": law_of(scene, of), "of": parts_of(scene, of)}
 
 
@@ -151,7 +151,7 @@ def _table(panel: ChartPanel, least: float) -> Tabulated:
     unbounded = (unbounded_places(series.phases, column) for column in series.values.T)
 
     def read(phases: NDArray[np.float64]) -> NDArray[np.float64]:
-        values = np.asarray(panel.quantity.shown(scene.solve(phase=phases, speed=panel.speed)), float)
+        values = np.asarray(panel.quantity.displayed(scene.solve(phase=phases, speed=panel.speed)), float)
         columns: NDArray[np.float64] = values.T if values.ndim == 2 else values[None]
         if series.unit != "°":
             return columns

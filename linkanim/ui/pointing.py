@@ -117,8 +117,8 @@ def _of_instant(state: State, scene: Scene, phase: float) -> tuple[str, ...]:
     known = (quantity(scene, token) for token in tokens)
     unit = scene.length_unit
     words = (
-        f"{one.symbol} = {', '.join(map(four_digits, np.atleast_1d(one.shown(pose)).tolist()))} "
-        f"{one.shown_unit(unit)}"
+        f"{one.symbol} = {', '.join(map(four_digits, np.atleast_1d(one.displayed(pose)).tolist()))} "
+        f"{one.display_unit(unit)}"
         for one in known
     )
     return (f"{where.label} {where.value}", *words)
@@ -190,4 +190,4 @@ def _of_strut(scene: Scene, strut: Strut, name: str) -> tuple[str, ...]:
 
 def _number(scene: Scene, pose: Pose, token: str) -> float:
     """Return a quantity's value as in all outputs: 0 where it is nothing but rounding."""
-    return float(scene.quantities[token].shown(pose))
+    return float(scene.quantities[token].displayed(pose))

@@ -49,7 +49,7 @@ def _disagreeing(found: Solution) -> list[tuple[str, float, float]]:
     motion, quantities = found.request.motion(), found.request.scene.quantities
     wrong = []
     for result in found.results:
-        true, shown = float(quantities[result.token].shown(motion)), result.value.value
+        true, shown = float(quantities[result.token].displayed(motion)), result.value.value
         off = abs(math.remainder(shown - true, 360)) if result.unit == "°" else abs(shown - true)
         if not off <= max(DIGITS * abs(true), result.least):
             wrong.append((result.token, true, shown))

@@ -106,10 +106,10 @@ def test_values_are_those_of_the_motion() -> None:
 def test_people_read_degrees_and_the_scenes_unit() -> None:
     scene = load("press")
     known, pose = register(scene.linkage), scene.pose(1.1)
-    assert known["3.angle"].shown(pose) == pytest.approx(math.degrees(pose.angle["3"]))
-    assert known["3.angle"].shown_unit("mm") == "°"
-    assert known["B.velocity"].shown_unit("mm") == "mm/s"
-    assert known["B.velocity"].shown(pose) == known["B.velocity"].read(pose)
+    assert known["3.angle"].displayed(pose) == pytest.approx(math.degrees(pose.angle["3"]))
+    assert known["3.angle"].display_unit("mm") == "°"
+    assert known["B.velocity"].display_unit("mm") == "mm/s"
+    assert known["B.velocity"].displayed(pose) == known["B.velocity"].read(pose)
 
 
 # what is asked for, and what is meant by it

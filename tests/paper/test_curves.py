@@ -53,8 +53,10 @@ def test_each_curve_is_the_motion_over_what_was_asked(
     for curve in found.curves:
         at = np.linspace(0, len(curve.x) - 1, 23).astype(int)
         motion = found.scene.solve(phase=curve.phases[at], speed=pace.speed)
-        turned = np.remainder(curve.values[at] - curve.quantity.shown(motion) + 180, 360) - 180
-        small = turned if curve.quantity.unit == "rad" else curve.values[at] - curve.quantity.shown(motion)
+        turned = np.remainder(curve.values[at] - curve.quantity.displayed(motion) + 180, 360) - 180
+        small = (
+            turned if curve.quantity.unit == "rad" else curve.values[at] - curve.quantity.displayed(motion)
+        )
         assert small == pytest.approx(np.zeros(23), abs=1e-3 * np.ptp(curve.values))
         assert np.abs(np.diff(curve.values)).max() < 0.1 * np.ptp(curve.values)
         places = found.places(curve, motion)

@@ -59,7 +59,7 @@ def test_the_first_column_is_what_over_says(over: Over, scene: str, tmp_path: Pa
     phases = np.linspace(0.2, 2.6, 7)
     motion = solved.solve(phase=phases)
     first = {"angle": np.degrees(motion.coordinate), "phase": np.degrees(phases), "time": phases / 10}[over]
-    values = solved.quantities[token].shown(motion)
+    values = solved.quantities[token].displayed(motion)
     found = laid(written(tmp_path / "t.csv", first, values), scene, token, over)
     assert abs(found.differences).max() < 1e-9
     assert len(found.table("mm").splitlines()) == 8
@@ -73,7 +73,7 @@ def test_the_first_column_is_what_over_says(over: Over, scene: str, tmp_path: Pa
 
 def test_a_column_in_another_unit_is_refused_with_the_way_out(tmp_path: Path) -> None:
     press, times = load("press"), np.linspace(0.0, 0.6, 13)
-    values = press.quantities["3.angular_velocity"].shown(press.solve(phase=10 * times, speed=10.0))
+    values = press.quantities["3.angular_velocity"].displayed(press.solve(phase=10 * times, speed=10.0))
     noisy = 1.01 * np.asarray(values) + 0.01
     seconds = written(tmp_path / "t.csv", times, noisy)
     with pytest.raises(BadInput, match="fits as seconds, and is read as degrees; add --over time"):

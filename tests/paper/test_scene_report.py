@@ -388,7 +388,7 @@ def test_tables_say_what_is_solved_at_every_speed(name: str) -> None:
         for pace, n in zip(PACES, range(3), strict=True):
             motion = scene.solve(phase=instant.phase, speed=pace.speed)
             for token, told in rows.items():
-                value = float(numbers[token].shown(motion))
+                value = float(numbers[token].displayed(motion))
                 assert digits.match(told[n])
                 assert told[n] in (rounded(value, 7), "0", "∞", "−∞"), token
                 # nothing is so small, or so large, that it is a rounding error

@@ -190,7 +190,7 @@ def test_the_curve_is_that_of_the_running_motion(name: str, token: str, speed: f
         pose = _pose(chart, float(phase))
         on_curve = np.interp(chart.course.x_of(phase), x, values[:, 0])
         assert chart.values_at(pose)[0] == pytest.approx(on_curve, abs=2e-3 * np.ptp(values))
-        exact = chart.quantity.shown(pose)
+        exact = chart.quantity.displayed(pose)
         away = chart.values_at(pose)[0] - exact
         assert away == 0.0 or (token.endswith("angle") and away % 360 == pytest.approx(0.0))
 
@@ -212,7 +212,7 @@ def test_the_ends_of_a_curve_are_the_values_there_wherever_the_drive_starts(toke
     chart = chart_panel(figure(scene), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
     x, values = chart.curves
     for end in (0, -1):
-        exact = chart.quantity.shown(scene.pose(float(chart.course.phase_of(x[end]))))
+        exact = chart.quantity.displayed(scene.pose(float(chart.course.phase_of(x[end]))))
         assert values[end, 0] == pytest.approx(exact, abs=1e-4 * np.ptp(values))
 
 

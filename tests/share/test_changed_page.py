@@ -159,7 +159,7 @@ def test_a_chart_is_that_of_the_lengths_that_are_shown(
     for at in (0.4, 1.7, 3.0, 4.9):
         go_to(page, at)
         pose = other.solve(angle=np.array([scene.linkage.drive.start + phase(page)]), speed=speed)
-        true = np.atleast_1d(np.squeeze(other.quantities[token].shown(pose)))
+        true = np.atleast_1d(np.squeeze(other.quantities[token].displayed(pose)))
         told = np.array(reading(page))
         off = told - true
         if other.quantities[token].unit == "rad":
@@ -167,7 +167,7 @@ def test_a_chart_is_that_of_the_lengths_that_are_shown(
         assert np.abs(off).max() <= 0.6 * 10.0**-digits + 1e-6 * np.abs(true).max(), (told, true, start)
     page.value("document.getElementById('reset').click()")
     page.frame()
-    own = np.atleast_1d(scene.quantities[token].shown(scene.pose(phase(page))))
+    own = np.atleast_1d(scene.quantities[token].displayed(scene.pose(phase(page))))
     assert reading(page) == pytest.approx(own.tolist(), abs=0.6 * 10.0**-digits)
     assert page.messages == []
 

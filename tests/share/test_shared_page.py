@@ -216,7 +216,7 @@ def test_a_page_s_chart_holds_beside_poles_and_corners(name: str, token: str) ->
     scene = load(name)
     data, quantity = held(document(Shared(scene, chart=token))), scene.quantities[token]
     phases = np.linspace(0.0, scene.period, 1501) + 0.0007
-    exact = np.asarray(quantity.shown(scene.solve(phase=phases)), float)
+    exact = np.asarray(quantity.displayed(scene.solve(phase=phases)), float)
     last = 10.0 ** -data["sides"][0]["charts"][0]["digits"]
     for phase, true in zip(phases.tolist(), exact.tolist(), strict=True):
         (found,) = read_tables.charted_over_angle(data, phase)
@@ -259,7 +259,7 @@ def test_a_page_s_numbers_hold_beside_a_limit(name: str) -> None:
             for phase in (
                 end + way * beside for end in (0.0, math.pi) for beside in BESIDE for way in (1, -1)
             ):
-                exact = float(one.quantity.shown(scene.pose(phase, speed=-2.0 if back else 2.0)))
+                exact = float(one.quantity.displayed(scene.pose(phase, speed=-2.0 if back else 2.0)))
                 found = read_tables.row(data, one.label, phase % math.tau, back=back)
                 assert found == pytest.approx(exact, rel=2e-5, abs=one.step / 10), (one.label, phase, back)
                 tables += 1
@@ -290,7 +290,7 @@ def test_a_page_s_numbers_hold_where_a_gear_is_quick() -> None:
     length = next(one for one in measured(scene) if "length" in one.label)
     data = held(document(Shared(scene)))
     for phase in np.linspace(0.01, scene.period, 101)[:-1].tolist():
-        exact = float(length.quantity.shown(scene.pose(phase)))
+        exact = float(length.quantity.displayed(scene.pose(phase)))
         assert read_tables.row(data, length.label, phase) == pytest.approx(exact, abs=length.step / 10)
 
 
@@ -318,11 +318,13 @@ def test_a_torque_that_is_not_bounded_is_told_to_be_so_and_only_there() -> None:
 def test_a_page_s_chart_holds_beside_a_limit(name: str, token: str) -> None:
     scene = swinging(name)
     data, quantity = held(document(Shared(scene, chart=token, speed=2.0))), scene.quantities[token]
-    greatest = float(np.nanmax(np.abs(quantity.shown(scene.solve(phase=np.linspace(0.1, 3, 90), speed=2.0)))))
+    greatest = float(
+        np.nanmax(np.abs(quantity.displayed(scene.solve(phase=np.linspace(0.1, 3, 90), speed=2.0))))
+    )
     for back in (False, True):
         for end in (0.0, math.pi, math.tau):
             for phase in (end + way * beside for beside in BESIDE for way in (1, -1)):
-                exact = float(quantity.shown(scene.pose(phase, speed=-2.0 if back else 2.0)))
+                exact = float(quantity.displayed(scene.pose(phase, speed=-2.0 if back else 2.0)))
                 (found,) = read_tables.charted(data, phase, back=back)
                 assert found == pytest.approx(exact, rel=1e-5, abs=1e-5 * greatest), (phase, back)
 

@@ -111,7 +111,7 @@ def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:
 
 def _difference(curves: Curves, measured: MeasuredCurve) -> str:
     """Return the table of both values, and the largest difference in a line."""
-    unit, row = measured.curve.quantity.shown_unit(curves.scene.length_unit), measured.worst
+    unit, row = measured.curve.quantity.display_unit(curves.scene.length_unit), measured.worst
     step, place = (0.01, "deg") if measured.over != "time" else (1e-4, "s")
     return (
         f"{measured.table(curves.scene.length_unit)}\n\n"
