@@ -57,7 +57,13 @@ class Program(NamedTuple):
     phases: Array = np.empty(0)
 
     def clear(self, lengths: Sequence[Array]) -> Bools:
-        """Tell in which linkages (N,) every dyad down the chain stays clear of its limits."""
+        """Tell in which linkages (N,) every dyad down the chain stays clear of its limits.
+
+        Of rows that follow each other with the same lengths one is looked at.
+        """
+        table = np.stack(lengths)
+        first = np.append(True, (table[:, 1:] != table[:, :-1]).any(axis=0))
+        lengths = [*table[:, first]]
         count, clear = len(lengths[0]), np.ones(len(lengths[0]), dtype=bool)
         last: Array | None = None
         assert self.sines is not None
@@ -67,7 +73,7 @@ class Program(NamedTuple):
             sines = sines if last is None else np.concatenate([last, sines], axis=1)
             steps, last = np.abs(np.diff(sines, axis=1)), sines[:, -1:]
             clear &= (sines > CLEAR).all(axis=(0, 1)) & (sines[:, 1:] > 2 * steps).all(axis=(0, 1))
-        return clear
+        return np.asarray(clear[np.cumsum(first) - 1])
 
 
 @frozen(eq=False)

@@ -26,7 +26,7 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.measures import output_body
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.files import load
-from linkanim.scenes.many import Many, named_lengths, solve_many, solved_together
+from linkanim.scenes.many import Many, named_lengths, solve_many, solved_alike, solved_together
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
@@ -129,7 +129,7 @@ def tolerance(
             "linkage's extent"
         )
     names, quantities = _lengths_of(scene), tuple(_quantities(scene))
-    whole = len(names) + len(quantities)
+    whole = 1 + len(quantities)
     if not quantities or not solved_together(scene, names):
         raise BadInput(
             f"{scene.name}: tolerances are worked out for chains of dyads that a turning crank drives, away "
@@ -142,7 +142,8 @@ def tolerance(
 
     phases = np.linspace(0, scene.period, _PHASES, endpoint=False)
     strokes = [phase for one in quantities if one.ends for phase in one.ends]
-    effects = _effects(scene, names, quantities, np.concatenate([phases, strokes]), pulse)
+    effects = _effects(scene, names, quantities, np.concatenate([phases, strokes]))
+    pulse()
     if not all(np.isfinite(one).all() for one in effects):
         raise BadInput(
             f"{scene.name}: with a length only a little different it cannot be put together in every pose, "
@@ -224,25 +225,28 @@ def _effects(
     names: tuple[str, ...],
     quantities: tuple[_Quantity, ...],
     phases: Real,
-    pulse: Callable[[], None],
 ) -> list[Real]:
-    """Return the derivatives (L, P, 1 or 2) of each quantity by each length, at each phase."""
+    """Return the derivatives (L, P, 1 or 2) of each quantity by each length, at each phase.
+
+    All linkages, each with one length moved, are solved in one call. Where one is not like the scene's own
+    the next smaller step decides.
+    """
     own, known, reach = _own(scene, names), named_lengths(scene), scene.linkage.extent / 8
-    effects: list[list[Real]] = [[] for _ in quantities]
-    for n, name in enumerate(names):
-        wide = min(own[n] / 2, reach) if known[name].type.measure == "length" else reach
-        steps = np.outer(wide * _STEPS, [1, 2, 3, 4])
-        moved = np.stack([own[n] + steps, own[n] - steps], axis=-1)
-        pulse()
-        motion = solve_many(scene, {name: np.repeat(moved.ravel(), len(phases))}, np.tile(phases, moved.size))
-        for one, slopes in zip(quantities, effects, strict=True):
-            values = one.values(motion).reshape(*moved.shape, len(phases), -1)
-            apart = _less(values[:, :, 0], values[:, :, 1], is_angle=one.is_angle)
-            each = np.einsum("hkpc,k->hpc", apart, _STENCIL) / steps[:, :1, None]
-            coarse, fine = np.nan_to_num(np.abs(np.diff(each, axis=0)), nan=np.inf).max(axis=-1)
-            first = (coarse <= fine) & np.isfinite(each[1]).all(axis=1)
-            slopes.append(np.where(first[:, None], each[1], each[2]))
-    return [np.array(slopes) for slopes in effects]
+    is_length = [known[name].type.measure == "length" for name in names]
+    steps = np.multiply.outer(np.where(is_length, np.minimum(own / 2, reach), reach), _STEPS)
+    away = steps[:, :, None, None] * np.multiply.outer([1.0, 2.0, 3.0, 4.0], [1.0, -1.0])
+    rows = own[:, None, None] + np.eye(len(own))[:, :, None] * away.reshape(1, len(own), -1)
+    lengths = np.repeat(rows.reshape(len(own), -1), len(phases), axis=1)
+    motion = solved_alike(scene, dict(zip(names, lengths, strict=True)), np.tile(phases, away.size))
+    effects = []
+    for one in quantities:
+        values = one.values(motion).reshape(*away.shape, len(phases), -1)
+        apart = _less(values[:, :, :, 0], values[:, :, :, 1], is_angle=one.is_angle)
+        slopes = np.einsum("lhkpc,k->lhpc", apart, _STENCIL) / steps[:, :, None, None]
+        off = np.nan_to_num(np.abs(np.diff(slopes, axis=1)), nan=np.inf).max(axis=-1)
+        first = (off[:, 0] <= off[:, 1]) & np.isfinite(slopes[:, 1]).all(axis=-1)
+        effects.append(np.where(first[..., None], slopes[:, 1], slopes[:, 2]))
+    return effects
 
 
 Draw = Callable[[float], Many]

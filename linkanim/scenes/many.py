@@ -24,7 +24,7 @@ from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.many import LinkageForm
 from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS, between, direction
 from linkanim.mechanics.motion import Pose, ResultPlaces, arrays, laid_out, read_only
-from linkanim.mechanics.program import Array
+from linkanim.mechanics.program import Array, Bools
 from linkanim.scenes.editing import Number, dimensions, numbers, with_dimensions, with_values
 from linkanim.scenes.files import load
 from linkanim.scenes.form import LENGTHS, Key
@@ -104,17 +104,8 @@ def solve_many(
     if not chosen:
         motion = scene.solve(phase=phases, speed=w, acceleration=a, derivatives=derivatives)
         return Many(scene, phases, **{kind: getattr(motion, kind) for kind in (*VECTORS, *NUMBERS)})
-    form = _form(scene, tuple(number.key for number in chosen))
-    places, results, unsolved = form.solved(rows, phases, (w, a), derivatives)
-    for number, row in zip(chosen, rows, strict=True):
-        if number.type.measure == "length" and not row.min() > SMALLEST:
-            unsolved |= ~(row > SMALLEST)
+    places, results_of, unsolved = _together(scene, chosen, rows, phases, (w, a), derivatives)
     pose = partial(Scene.pose, derivatives=derivatives, speed=w, acceleration=a)
-    if places is None:
-        places, rows_of = _layout_of(pose(scene, 0.0), derivatives)
-        results = np.full((rows_of, count), np.nan)
-    results[:, unsolved] = np.nan
-    results_of = {kind: arrays(places, results, (count,), kind) for kind in places.places}
     read: dict[tuple[float, ...], Scene | None] = {}
     for n in np.flatnonzero(unsolved):
         own = tuple(float(row[n]) for row in rows)
@@ -129,6 +120,41 @@ def solve_many(
     for values in results_of.values():
         read_only(tuple(values.values()))
     return Many(scene, phases, **results_of)
+
+
+def _together(
+    scene: Scene,
+    chosen: Sequence[Number],
+    rows: Sequence[Array],
+    phases: Array,
+    rates: tuple[float, float],
+    derivatives: int,
+) -> tuple[ResultPlaces, dict[str, dict[str, Array]], Bools]:
+    """Return where results lie, the results by kind and name, and which rows (N,) are left to themselves.
+
+    These are NaN.
+    """
+    form = _form(scene, tuple(number.key for number in chosen))
+    places, results, unsolved = form.solved(rows, phases, rates, derivatives)
+    for number, row in zip(chosen, rows, strict=True):
+        if number.type.measure == "length" and not row.min() > SMALLEST:
+            unsolved |= ~(row > SMALLEST)
+    if places is None:
+        pose = scene.pose(0.0, derivatives, speed=rates[0], acceleration=rates[1])
+        places, rows_of = _layout_of(pose, derivatives)
+        results = np.full((rows_of, len(phases)), np.nan)
+    results[:, unsolved] = np.nan
+    return places, {kind: arrays(places, results, (len(phases),), kind) for kind in places.places}, unsolved
+
+
+def solved_alike(scene: Scene, lengths: Mapping[str, Array], phases: Array) -> Many:
+    """Return the positions of linkages with these lengths (N,), each at its phase.
+
+    NaN for one that cannot be solved together with the scene's own.
+    """
+    chosen = [_number(scene, name) for name in lengths]
+    _, results, _ = _together(scene, chosen, [*lengths.values()], phases, (1.0, 0.0), 0)
+    return Many(scene, phases, **results)
 
 
 def _with(scene: Scene, values: Mapping[Key, float]) -> Scene | None:
@@ -211,8 +237,8 @@ def _made(
     rest = start.copy()
     parts: list[list[tuple[int, float]]] = [[] for _ in start]
     for n, (key, value) in enumerate(zip(keys, usual, strict=True)):
-        one, two = (_lengths_with(scene, key, value + share * step) for share in (1, 2))
-        if one is None or two is None or np.abs(two - 2 * one + start).max() > LINEAR * linkage.extent:
+        one = _lengths_with(scene, {key: value + step})
+        if one is None:
             return None
         for place in np.flatnonzero(one != start):
             same = start[place] == value and one[place] == value + step
@@ -220,6 +246,13 @@ def _made(
             slope = 1.0 if same else start[place] / value if along else (one[place] - start[place]) / step
             rest[place] = 0.0 if same or along else rest[place] - slope * value
             parts[place].append((n, float(slope)))
+    others = [value + step / (n + 2) for n, value in enumerate(usual)]
+    every = _lengths_with(scene, dict(zip(keys, others, strict=True)))
+    linear = [
+        sum(others[n] * slope for n, slope in part) + fixed for part, fixed in zip(parts, rest, strict=True)
+    ]
+    if every is None or np.abs(every - linear).max() > LINEAR * linkage.extent:
+        return None
 
     def made(values: Sequence[Value]) -> Linkage:
         lengths = [
@@ -231,8 +264,8 @@ def _made(
     return made
 
 
-def _lengths_with(scene: Scene, key: Key, value: float) -> Array | None:
-    """Return the lengths of the linkage with another number in its document; None where it cannot be read."""
+def _lengths_with(scene: Scene, values: Mapping[Key, float]) -> Array | None:
+    """Return the lengths of the linkage with other numbers in its document; None where it cannot be read."""
     met: list[tuple[float, ...]] = []
 
     def kept(read: Scene) -> None:
@@ -240,7 +273,7 @@ def _lengths_with(scene: Scene, key: Key, value: float) -> Array | None:
         raise AssemblyError("it need not be put together")
 
     try:
-        scene_from(with_values(scene, {key: value}), name=scene.name, where=scene.name, check=kept)
+        scene_from(with_values(scene, values), name=scene.name, where=scene.name, check=kept)
     except LinkanimError:
         return np.array(met[0]) if met and len(met[0]) == len(scene.linkage.all_lengths) else None
     return None

@@ -13,6 +13,8 @@ import pytest
 import linkanim
 from linkanim.errors import BadInput
 from linkanim.scenes.deviation import Off, Tolerance, tolerance
+from linkanim.scenes.editing import dimensions
+from linkanim.scenes.many import named_lengths, solve_many
 
 BY = 0.1
 LENGTHS = ("ground", "crank", "coupler", "rocker", "coupler_point.0", "coupler_point.1")
@@ -141,6 +143,24 @@ def test_pins_are_off_from_the_input_s_own_and_masses_are_no_lengths() -> None:
     assert "O7.length" in found.lengths
     assert not [name for name in found.lengths if "com" in name or "return" in name]
     assert math.isnan(named(found, "stroke").likely)
+
+
+# scene, quantity, length, number of the phase: with the larger steps other dyads limit the input
+@pytest.mark.parametrize(
+    ("name", "quantity", "length", "number"), [("klann", "arm", "L.0", 46), ("peaucellier", "P", "Q.1", 22)]
+)
+def test_a_step_to_linkages_of_another_kind_does_not_count(
+    name: str, quantity: str, length: str, number: int
+) -> None:
+    scene = linkanim.load(name)
+    found = tolerance(scene, 1e-3 * scene.linkage.extent, samples=0)
+    off = named(found, quantity)
+    values = {one.key: float(one.value) for one in dimensions(scene)}
+    own, by = values[named_lengths(scene)[length].key], found.by
+    motion = solve_many(scene, {length: [own + 1e-4 * by, own - 1e-4 * by]}, off.phases[number])
+    places = motion.position[quantity] if quantity in motion.position else motion.angle[quantity][:, None]
+    true = np.linalg.norm(places[0] - places[1]) / 2e-4
+    assert off.alone[found.lengths.index(length), number] == pytest.approx(true, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["driven-piston", "elliptic-trammel", "toggle-press"])
