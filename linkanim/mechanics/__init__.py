@@ -12,12 +12,12 @@ From the ground up; a module imports from those before it only:
     linkage     what a linkage is, as data
     groups      links that are solved together, as data
     solver      closing it; no other room imports this one
-    followed    links that are solved together, closed: followed once, read from there
     closures    all closures of links that are solved together
     measures    what follows from solved quantities
     centres     instant centres, and Kennedy's theorem
     forces      what the input has to deliver
     reactions   what joints, guides and the ground carry
+    followed    links that are solved together, closed: followed once, read from there
     motion      a linkage made ready; its motion and its poses
     many        linkages of one form, each at its own phase, in one call
     balance     the work that a flywheel stores, counterweights of a four-bar

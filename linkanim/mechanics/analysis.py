@@ -38,7 +38,7 @@ from linkanim.mechanics.motion import Mechanism, Motion
 from linkanim.mechanics.program import Array, batch
 from linkanim.mechanics.quantities import input_symbol, phrase
 from linkanim.mechanics.search import changes_by_row, highest, in_blocks, own_rows, sign_changes
-from linkanim.mechanics.solver.closing import CLOSERS, walk_at
+from linkanim.mechanics.solver.closing import closer_of, walk_at
 from linkanim.mechanics.solver.signed_root import Kind
 from linkanim.mechanics.tolerances import (
     BESIDE_AN_EXTREME,
@@ -289,7 +289,7 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         return _cranks_name(linkage)
     if linkage.drive.actuator.noun is not None:
         return _driven_name(linkage, dyads, linkage.drive.actuator.noun)
-    own = CLOSERS[type(dyads[0])].name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
+    own = closer_of(dyads[0]).name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
     if own:
         return said(own)
     bars = _bars(len(dyads))

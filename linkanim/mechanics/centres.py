@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.angles import unit
-from linkanim.mechanics.groups import GroupSlider
 from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding
 from linkanim.mechanics.measures import as_complex, between, components, cross, over, size, steady
 from linkanim.mechanics.tolerances import ROUNDING, STRAIGHT
@@ -187,7 +186,7 @@ def _slides_of(linkage: Linkage, point: str) -> tuple[Slide, ...]:
     That is the first by what its own joint says, or by the bar whose slot it is in; of a group all of them.
     """
     joint = linkage.joint(point)
-    if isinstance(joint, GroupSlider) and joint.guided:
+    if joint.guided:
         return joint.guided
     every = (*joint.slides, *(slide for one in linkage.joints for slide in one.slides))
     return (next(slide for slide in every if slide.point == point),)

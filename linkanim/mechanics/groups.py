@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from cmath import phase
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -146,6 +146,10 @@ class LinkGroup(Stated, ABC):
     def place(self, walk: Any) -> None:
         """Add its points and its links to a walk over the linkage."""
 
+    @abstractmethod
+    def hold(self, balance: Any) -> None:
+        """Let its links hold each other, where the forces are known that act on them from outside."""
+
     def between(self, slide: GroupSlide) -> tuple[str, str] | None:
         """Return the ends of a cylinder: of a slide whose line, on a link of one point, runs through that."""
         carrier = self.by_name[slide.on]
@@ -177,6 +181,10 @@ class LinkGroup(Stated, ABC):
         """Return the line of a slide, of a cylinder that from end to end; None where points show none."""
         ends = self.between(slide)
         return Line(ends[0], on=ends) if ends else self.line(slide)
+
+    def joints_of(self, link: str) -> tuple[str, ...]:
+        """Return the points of a link; none of the ground."""
+        return () if link == GROUND else self.by_name[link].points
 
     def at_point(self, point: str) -> list[GroupLink]:
         """Return the links that a point is on."""
@@ -279,6 +287,19 @@ class GroupPoint(Joint):
         return tuple(line.guiding(self.name) for line in lines if line)
 
     @property
+    def slotted(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """The points in slots, which come with the group's first point."""
+        slots = self.group.own_slides if self.name == self.group.points[0] else ()
+        return tuple((one.point, self.group.joints_of(one.on)) for one in slots if one.turns)
+
+    @property
+    def made(self) -> tuple[tuple[str, ...], Mapping[str, str]]:
+        """What the group's links are called, which come with its first point; blocks by their only point."""
+        own = list(self.group.free) if self.name == self.group.points[0] else []
+        bars = tuple(link.name for link in own if link.points[1:])
+        return bars, {link.points[0]: link.name for link in own if not link.points[1:]}
+
+    @property
     def at_limit(self) -> str:
         """The links of its group are stretched out, or folded."""
         names = [member.name for member in self.group.free]
@@ -301,6 +322,12 @@ class GroupSlider(GroupPoint):
     def line(self) -> Line:
         """The line of travel."""
         return self.slides[0].line
+
+    @property
+    def block(self) -> tuple[str, ...]:
+        """The points of the block, which may have further ones."""
+        own = next(one for one in self.group.slides if one.point == self.name and not one.turns)
+        return self.group.joints_of(own.link)
 
     @property
     def guided(self) -> tuple[Slide, ...]:

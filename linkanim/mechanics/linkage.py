@@ -13,7 +13,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
 from functools import cached_property, reduce
@@ -197,6 +197,27 @@ class Joint(Stated):
     def slides(self) -> tuple[Slide, ...]:
         """The joints that the definition lets slide, and along what."""
         return ()
+
+    @property
+    def guided(self) -> tuple[Slide, ...]:
+        """The slides on whose guides it does not turn, of a block on several."""
+        return ()
+
+    @property
+    def slotted(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """The joints that the definition has in a slot, each with joints of the body whose slot it is."""
+        return ()
+
+    @property
+    def block(self) -> tuple[str, ...]:
+        """Joints of the body that slides with it, where it travels; none of the ground."""
+        return (self.name,)
+
+    @property
+    def made(self) -> tuple[tuple[str, ...], Mapping[str, str]]:
+        """What the bodies are called that the definition adds: of its bars, and by its joint each block."""
+        bars = tuple(f"{start}–{self.name}" for start, _ in self.bars)
+        return bars, {self.name: f"slider {self.name}"} if self.travels else {}
 
     @property
     def named_sign(self) -> int | None:
@@ -435,6 +456,11 @@ class RPR(Joint):
         return (Slide(self.through, self.pivot, Line(self.pivot, 0.0, self.offset, (self.pivot, self.name))),)
 
     @property
+    def slotted(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """The joint in the slot of the bar."""
+        return ((self.through, (self.pivot, self.name)),)
+
+    @property
     def named_sign(self) -> int:
         """The sign of the root: the joint in the slot is always ahead of the pivot."""
         return 1
@@ -495,6 +521,11 @@ class RPP(Guided):
     def pins(self) -> tuple[str, ...]:
         """The pin in the slot."""
         return (self.pin,)
+
+    @property
+    def slotted(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """The pin in the slot of the bar."""
+        return ((self.pin, (self.name,)),)
 
     @property
     def slides(self) -> tuple[Slide, ...]:

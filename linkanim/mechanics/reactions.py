@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache, reduce
 from typing import Any, NamedTuple
 
@@ -32,7 +32,6 @@ import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.forces import idle, interpolated, near_ends
-from linkanim.mechanics.groups import GroupLink, GroupPoint, GroupSlide, GroupSlider, LinkGroup
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,
@@ -131,27 +130,14 @@ class Members(NamedTuple):
     names: Mapping[Member, str]
 
 
+def member_with(linkage: Linkage, joints: tuple[str, ...]) -> Member:
+    """Return which body has these joints: a block has one; none show the ground."""
+    return joints[0] if len(joints) == 1 else holding(linkage.rigid_bodies, joints) or 0
+
+
 def member_of(linkage: Linkage, body: Body) -> Member:
     """Return which body a named one is."""
-    if body.slider is not None:
-        return block_of(linkage, body.slider)
-    return holding(linkage.rigid_bodies, body.joints) or 0
-
-
-def block_of(linkage: Linkage, joint: str) -> Member:
-    """Return which body slides with a joint: a link of a group may have further points."""
-    slider = linkage.joint(joint)
-    if isinstance(slider, GroupSlider):
-        slide = next(one for one in slider.group.slides if one.point == joint and not one.turns)
-        return link_member(linkage, slider.group.by_name[slide.link])
-    return joint
-
-
-def link_member(linkage: Linkage, link: GroupLink) -> Member:
-    """Return which body a link of a group is."""
-    if link.name == GROUND:
-        return 0
-    return link.points[0] if len(link.points) == 1 else holding(linkage.rigid_bodies, link.points) or 0
+    return member_with(linkage, linkage.joint(body.slider).block if body.slider else body.joints)
 
 
 @lru_cache(maxsize=16)
@@ -162,16 +148,13 @@ def members(linkage: Linkage) -> Members:
         if joint.fixed or isinstance(joint, Rigid):
             of[joint.name] = (holding(linkage.rigid_bodies, joint.needs) or 0,)
             continue
-        if isinstance(joint, GroupPoint):
-            own = [link for link in joint.group.free if joint.name == joint.group.points[0]]
-            bars = {count + n: link.name for n, link in enumerate(link for link in own if link.points[1:])}
-            block = {link.points[0]: link.name for link in own if not link.points[1:]}
-        else:
-            bars = {count + n: f"{start}–{joint.name}" for n, (start, _) in enumerate(joint.bars)}
-            block = {joint.name: f"slider {joint.name}"} if joint.travels else {}
-        count += len(bars)
-        of[joint.name] = (*bars, *block)
-        names |= bars | block
+        made, blocks = joint.made
+        own = dict[Member, str](enumerate(made, count))
+        for block, name in blocks.items():
+            own[block] = name
+        count += len(made)
+        of[joint.name] = tuple(own)
+        names |= own
     for body in reversed(linkage.bodies):
         if member := member_of(linkage, body):
             names[member] = body.name
@@ -187,25 +170,14 @@ def named_at(linkage: Linkage, member: Member, joint: str) -> str:
 
 def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
     """Return the names of the bodies in each joint in which several meet, and in a cylinder's ends."""
-    frames = {
+    several: dict[str, list[Member]] = {
         name: [n for n, frame in enumerate(linkage.rigid_bodies) if name in frame] for name in linkage.by_name
     }
-    several: dict[str, list[Member]] = {name: [*numbers] for name, numbers in frames.items()}
     for joint in linkage.joints:
-        if joint.travels and block_of(linkage, joint.name) == joint.name:
+        if joint.travels and len(joint.block) == 1:
             several[joint.name].append(joint.name)
-        if isinstance(joint, GroupPoint):
-            slots = (
-                slide
-                for slide in joint.group.own_slides
-                if joint.name == joint.group.points[0] and slide.turns
-            )
-            for slide in slots:
-                several[slide.point].append(link_member(linkage, joint.group.by_name[slide.on]))
-        if isinstance(joint, RPR):
-            several[joint.through] += members(linkage).of[joint.name]
-        if isinstance(joint, RPP):
-            several[joint.pin].append(joint.name)
+        for name, of in joint.slotted:
+            several[name].append(member_with(linkage, of))
     ends = linkage.drive.actuator.along or ()
     return {
         name: tuple(named_at(linkage, member, name) for member in several[name])
@@ -217,7 +189,7 @@ def meeting(linkage: Linkage) -> Mapping[str, tuple[str, ...]]:
 def guided(linkage: Linkage) -> tuple[str, ...]:
     """Return the names of what slides along a line, in the order of the joints."""
     names = members(linkage).names
-    return tuple(names[block_of(linkage, joint.name)] for joint in linkage.joints if joint.travels)
+    return tuple(names[member_with(linkage, one.block)] for one in linkage.joints if one.travels)
 
 
 def meshing(linkage: Linkage) -> Mapping[str, bool]:
@@ -231,23 +203,27 @@ def meshing(linkage: Linkage) -> Mapping[str, bool]:
 # Lengths are in the scene's unit, and moments in newtons times that, until they are told.
 
 
-def _sum(vector: Vector, other: Vector) -> Vector:
+def plus(vector: Vector, other: Vector) -> Vector:
+    """Return the sum of two vectors."""
     return vector[0] + other[0], vector[1] + other[1]
 
 
-def _difference(vector: Vector, other: Vector) -> Vector:
+def minus(vector: Vector, other: Vector) -> Vector:
+    """Return the difference of two vectors."""
     return vector[0] - other[0], vector[1] - other[1]
 
 
-def _scaled(vector: Vector, factor: Any) -> Vector:
+def times(vector: Vector, factor: Any) -> Vector:
+    """Return a vector times a number."""
     return vector[0] * factor, vector[1] * factor
 
 
-def _turned_left(vector: Vector) -> Vector:
+def turned_left(vector: Vector) -> Vector:
+    """Return a vector turned by a right angle, counter-clockwise."""
     return -vector[1], vector[0]
 
 
-class _Balance:
+class ForceBalance:
     """What acts on each body and pin so far; the joints' own kinds add what follows."""
 
     def __init__(self, motion: Any) -> None:
@@ -283,8 +259,8 @@ class _Balance:
     def meet(self, joint: str, member: Member, force: Vector) -> None:
         """Add the force of a pin on a body, which pushes back."""
         known = self.joints[joint].get(member)
-        self.joints[joint][member] = _sum(known, force) if known else force
-        self.pins[joint] = _difference(self.pins[joint], force)
+        self.joints[joint][member] = plus(known, force) if known else force
+        self.pins[joint] = minus(self.pins[joint], force)
         self.apply(member, self.place(joint), force)
 
     def total(self, member: Member) -> Vector:
@@ -297,7 +273,7 @@ class _Balance:
 
     def moment(self, member: Member, about: Vector) -> Any:
         """Return the moment of all that acts on a body."""
-        terms = (cross(_difference(place, about), force) for place, force in self.forces[member])
+        terms = (cross(minus(place, about), force) for place, force in self.forces[member])
         return sum(terms, self.couples[member])
 
     def hang(self, member: Member, joint: str) -> None:
@@ -310,7 +286,7 @@ class _Balance:
         known, (x, y) = list(self.forces), self.linkage.origin
         force: Vector = (0.0, 0.0)
         for member in known:
-            force = _sum(force, self.total(member))
+            force = plus(force, self.total(member))
         self.shaking = *force, sum((self.moment(one, (-x, -y)) for one in {*known, *self.couples}), 0.0)
 
     def along(self, line: Line) -> tuple[Vector, Member]:
@@ -322,10 +298,10 @@ class _Balance:
     def guide(self, name: str, line: Line) -> None:
         """Let a block be held by its guide against all that acts on it across the line."""
         u, carrier = self.along(line)
-        place, normal = self.place(name), _turned_left(u)
+        place, normal = self.place(name), turned_left(u)
         force, moment = -dot(self.total(name), normal), -self.moment(name, place)
         self.guides[name] = force, moment
-        self.apply(carrier, place, _scaled(normal, -force))
+        self.apply(carrier, place, times(normal, -force))
         self.couples[carrier] = self.couples[carrier] - moment
 
     def quotient(self, moments: Vector, lever: Any, lengths: tuple[float, ...]) -> Vector:
@@ -341,54 +317,54 @@ class _Balance:
         return np.where(np.abs(lever) <= least, 0.0, lever)[()]
 
 
-def _bars(joint: RRR, balance: _Balance) -> None:
+def _bars(joint: RRR, balance: ForceBalance) -> None:
     (one, other), pull = balance.members.of[joint.name], balance.pins[joint.name]
     (first, last), place = joint.ends, balance.place(joint.name)
-    b1, b2 = (_difference(place, balance.place(end)) for end in joint.ends)
+    b1, b2 = (minus(place, balance.place(end)) for end in joint.ends)
     m1 = balance.moment(one, balance.place(first))
     m2 = balance.moment(other, balance.place(last)) + cross(b2, pull)
     area = balance.lever(joint) * joint.lengths[1]
-    force = balance.quotient(_sum(_scaled(b2, -m1), _scaled(b1, -m2)), area, joint.lengths)
+    force = balance.quotient(plus(times(b2, -m1), times(b1, -m2)), area, joint.lengths)
     balance.meet(joint.name, one, force)
-    balance.meet(joint.name, other, _difference(pull, force))
+    balance.meet(joint.name, other, minus(pull, force))
     balance.hang(one, first)
     balance.hang(other, last)
 
 
-def _bar_to_slider(joint: RRP, balance: _Balance) -> None:
+def _bar_to_slider(joint: RRP, balance: ForceBalance) -> None:
     bar, block = balance.members.of[joint.name]
     (u, _), pull = balance.along(joint.line), balance.pins[joint.name]
-    arm = _difference(balance.place(joint.name), balance.place(joint.end))
-    along = dot(_sum(pull, balance.total(block)), u)
+    arm = minus(balance.place(joint.name), balance.place(joint.end))
+    along = dot(plus(pull, balance.total(block)), u)
     moment = -balance.moment(bar, balance.place(joint.end)) - along * cross(arm, u)
     across, _ = balance.quotient((moment, 0.0), balance.lever(joint), (joint.length,))
-    force = _sum(_scaled(u, along), _scaled(_turned_left(u), across))
+    force = plus(times(u, along), times(turned_left(u), across))
     balance.meet(joint.name, bar, force)
-    balance.meet(joint.name, block, _difference(pull, force))
+    balance.meet(joint.name, block, minus(pull, force))
     balance.guide(joint.name, joint.line)
     balance.hang(bar, joint.end)
 
 
-def _slot(joint: RPR, balance: _Balance) -> None:
+def _slot(joint: RPR, balance: ForceBalance) -> None:
     (bar,) = balance.members.of[joint.name]
     balance.meet(joint.name, bar, balance.pins[joint.name])
-    u = _scaled(between(balance.motion.position, (joint.pivot, joint.name)), 1.0 / joint.length)
+    u = times(between(balance.motion.position, (joint.pivot, joint.name)), 1.0 / joint.length)
     moment = -balance.moment(bar, balance.place(joint.pivot))
     push, _ = balance.quotient((moment, 0.0), balance.lever(joint), (joint.length,))
-    balance.meet(joint.through, bar, _scaled(_turned_left(u), push))
+    balance.meet(joint.through, bar, times(turned_left(u), push))
     balance.hang(bar, joint.pivot)
 
 
-def _yoke(joint: RPP, balance: _Balance) -> None:
+def _yoke(joint: RPP, balance: ForceBalance) -> None:
     (block,) = balance.members.of[joint.name]
     balance.meet(joint.name, block, balance.pins[joint.name])
     (u, _), (cosine, sine) = balance.along(joint.line), map(float, direction(joint.slot))
     push = dot(balance.total(block), u) / sine
-    balance.meet(joint.pin, block, _scaled(turned((-sine, cosine), u), push))
+    balance.meet(joint.pin, block, times(turned((-sine, cosine), u), push))
     balance.guide(joint.name, joint.line)
 
 
-def _crank(joint: Crank, balance: _Balance) -> None:
+def _crank(joint: Crank, balance: ForceBalance) -> None:
     (bar,) = balance.members.of[joint.name]
     balance.meet(joint.name, bar, balance.pins[joint.name])
     pivot = balance.place(joint.pivot)
@@ -403,28 +379,28 @@ def _crank(joint: Crank, balance: _Balance) -> None:
         fixed, moving = ends
         apart = between(balance.motion.position, ends)
         u = tuple(over(part, size(apart)) for part in apart)
-        balance.effort = over(moment, cross(_difference(balance.place(moving), pivot), u))
-        balance.meet(moving, bar, _scaled(u, balance.effort))
-        balance.pins[fixed] = _difference(balance.pins[fixed], _scaled(u, balance.effort))
+        balance.effort = over(moment, cross(minus(balance.place(moving), pivot), u))
+        balance.meet(moving, bar, times(u, balance.effort))
+        balance.pins[fixed] = minus(balance.pins[fixed], times(u, balance.effort))
     balance.hang(bar, joint.pivot)
 
 
-def _driven_slider(joint: DrivenSlider, balance: _Balance) -> None:
+def _driven_slider(joint: DrivenSlider, balance: ForceBalance) -> None:
     (block,) = balance.members.of[joint.name]
     balance.meet(joint.name, block, balance.pins[joint.name])
     u, _ = balance.along(joint.line)
     balance.effort = -dot(balance.total(block), u)
-    balance.apply(block, balance.place(joint.name), _scaled(u, balance.effort))
-    balance.apply(0, balance.place(joint.name), _scaled(u, -balance.effort))
+    balance.apply(block, balance.place(joint.name), times(u, balance.effort))
+    balance.apply(0, balance.place(joint.name), times(u, -balance.effort))
     balance.guide(joint.name, joint.line)
 
 
-def _point(joint: Rigid, balance: _Balance) -> None:
+def _point(joint: Rigid, balance: ForceBalance) -> None:
     (body,) = balance.members.of[joint.name]
     balance.meet(joint.name, body, balance.pins[joint.name])
 
 
-def _mesh(joint: Crank, moment: Any, balance: _Balance) -> None:
+def _mesh(joint: Crank, moment: Any, balance: ForceBalance) -> None:
     """Let a geared crank be turned by its mate's teeth, or as by a belt."""
     gear, linkage = joint.gear, balance.linkage
     assert gear is not None
@@ -437,15 +413,15 @@ def _mesh(joint: Crank, moment: Any, balance: _Balance) -> None:
         balance.couples[0] = balance.couples[0] - moment * (1.0 - ratio)
         balance.gears[joint.name] = None, None, moment
         return
-    line = _difference(own, balance.place(centre))
+    line = minus(own, balance.place(centre))
     distance = size(line)
-    u = _scaled(line, 1.0 / distance)
+    u = times(line, 1.0 / distance)
     tangential = over(moment, distance * (share - 1.0))
     radial = abs(tangential) * math.tan(gear.pressure_angle)
-    force = _sum(_scaled(_turned_left(u), tangential), _scaled(u, radial if share < 1.0 else -radial))
-    place = _sum(own, _scaled(line, share - 1.0))
+    force = plus(times(turned_left(u), tangential), times(u, radial if share < 1.0 else -radial))
+    place = plus(own, times(line, share - 1.0))
     balance.apply(bar, place, force)
-    balance.apply(0 if still else other, place, _scaled(force, -1.0))
+    balance.apply(0 if still else other, place, times(force, -1.0))
     balance.gears[joint.name] = tangential if share > 1.0 else -tangential, radial, moment
 
 
@@ -466,169 +442,13 @@ def contact(linkage: Linkage, joint: Crank) -> tuple[float | None, bool]:
     return (ratio / (ratio - 1.0), False) if apart and ratio < 0 else (None, False)
 
 
-class _Unknown(NamedTuple):
-    """An unknown of a group: the forces and couples on bodies of one unit of it, and what it is told to."""
-
-    forces: tuple[tuple[Member, Vector, Vector], ...]
-    couples: tuple[tuple[Member, float], ...]
-    tell: Callable[[Any], None]
+def _together(point: Any, balance: ForceBalance) -> None:
+    """Let the links of a group hold each other, with its last joint."""
+    if point.name == point.group.points[-1]:
+        point.group.hold(balance)
 
 
-def _together(joint: GroupPoint, balance: _Balance) -> None:
-    """Let the links of a group hold each other, by all their balances at once; with its last joint."""
-    group = joint.group
-    if joint.name != group.points[-1]:
-        return
-    links = {link.name: link_member(balance.linkage, link) for link in group.members}
-    # of the links that meet in a point of the group, the first one has what the others leave
-    rest = {
-        name: next(links[link.name] for link in group.at_point(name) if link in group.free)
-        for name in group.points
-    }
-    moving = [*group.free]
-    unknown = list(_constraints(group, links, rest, balance))
-    rows = 3 * len(moving)
-    assert len(unknown) == rows
-    shape, size_of = np.shape(balance.motion.phase), balance.linkage.longest
-    matrix, right = np.zeros((*shape, rows, rows)), np.zeros((*shape, rows))
-    for n, link in enumerate(moving):
-        member, about = links[link.name], balance.place(link.points[0])
-        x, y = balance.total(member)
-        moment = balance.moment(member, about)
-        for name in (name for name, first in rest.items() if first == member):
-            pull = balance.pins[name]
-            x, y = x + pull[0], y + pull[1]
-            moment = moment + cross(_difference(balance.place(name), about), pull)
-        for row, part in enumerate((x, y, moment / size_of)):
-            right[..., 3 * n + row] = part
-        for column, one in enumerate(unknown):
-            for place, (u, v) in ((place, force) for on, place, force in one.forces if on == member):
-                turning = cross(_difference(place, about), (u, v)) / size_of
-                for row, part in enumerate((u, v, turning)):
-                    matrix[..., 3 * n + row, column] += part
-            for share in (share for on, share in one.couples if on == member):
-                matrix[..., 3 * n + 2, column] += share
-    with np.errstate(all="ignore"):
-        lost = ~(np.linalg.cond(np.where(np.isfinite(matrix), matrix, 0.0)) < 1.0 / NO_LEVER)
-    even = np.where(lost[..., None, None], np.eye(rows), matrix)
-    solution = np.linalg.solve(even, -right[..., None])[..., 0]
-    solution = np.where(lost[..., None], np.nan, solution)
-    for column, one in enumerate(unknown):
-        one.tell(solution[..., column][()])
-    for name, member in rest.items():
-        balance.meet(name, member, balance.pins[name])
-
-
-def _constraints(
-    group: LinkGroup, links: Mapping[str, Member], rest: Mapping[str, Member], balance: _Balance
-) -> Iterator[_Unknown]:
-    """Yield what holds the links of a group: pins, lines, gears, and a motor between two of them."""
-    points = dict.fromkeys(name for link in group.free for name in link.points)
-    for name in points:
-        place = balance.place(name)
-        own = [links[link.name] for link in group.free if name in link.points]
-        for member in own[1:] if name in rest else own:
-            for axis in ((1.0, 0.0), (0.0, 1.0)):
-                yield _at_pin(name, place, member, axis, rest, balance)
-    for slide in group.own_slides:
-        along, place = _slid_along(slide, group, balance), balance.place(slide.point)
-        normal, block, carrier = _turned_left(along), links[slide.link], links[slide.on]
-        if slide.name == group.driven:
-            yield _thrust(block, carrier, place, along, balance)
-        if slide.turns:
-            yield _at_pin(slide.point, place, carrier, normal, rest, balance)
-            continue
-        push, turn = _guiding(slide.point, block, carrier, place, normal, balance)
-        yield push
-        yield turn
-    for gear in (gear for gear in group.own_gears if not gear.motor):
-        (one, other), carrier, ratio = (
-            (links[name] for name in gear.links),
-            links[gear.carrier],
-            float(gear.ratio),
-        )
-        yield _couple(((other, 1.0), (one, -ratio), (carrier, ratio - 1.0)), gear.name, balance)
-    if group.motor:
-        one, other = (links[name] for name in group.motor.links)
-        yield _couple(((other, 1.0), (one, -1.0)), "", balance)
-
-
-def _slid_along(slide: GroupSlide, group: LinkGroup, balance: _Balance) -> Vector:
-    """Return the direction along which something slides in a group, of length 1."""
-    if ends := group.between(slide):
-        x, y = between(balance.motion.position, ends)
-        length = size((x, y))
-        return over(x, length), over(y, length)
-    line = group.line(slide)
-    assert line is not None
-    return line_direction(balance.motion, line)
-
-
-def _at_pin(
-    name: str, place: Vector, member: Member, axis: Vector, rest: Mapping[str, Member], balance: _Balance
-) -> _Unknown:
-    """Return the force of a pin on a body along an axis, for which the body that has the rest pays."""
-
-    def tell(forces: Any) -> None:
-        balance.meet(name, member, _scaled(axis, forces))
-
-    back = ((rest[name], place, _scaled(axis, -1.0)),) if name in rest else ()
-    return _Unknown(((member, place, axis), *back), (), tell)
-
-
-def _guiding(
-    name: str, block: Member, carrier: Member, place: Vector, normal: Vector, balance: _Balance
-) -> tuple[_Unknown, _Unknown]:
-    """Return the force of a guide on a block, and its moment."""
-    size_of, back = balance.linkage.longest, _scaled(normal, -1.0)
-    balance.guides[name] = 0.0, 0.0
-
-    def push(forces: Any) -> None:
-        balance.guides[name] = forces, balance.guides[name][1]
-        balance.apply(block, place, _scaled(normal, forces))
-        balance.apply(carrier, place, _scaled(back, forces))
-
-    def turn(forces: Any) -> None:
-        moment = forces * size_of
-        balance.guides[name] = balance.guides[name][0], moment
-        balance.couples[block] = balance.couples[block] + moment
-        balance.couples[carrier] = balance.couples[carrier] - moment
-
-    return (
-        _Unknown(((block, place, normal), (carrier, place, back)), (), push),
-        _Unknown((), ((block, 1.0), (carrier, -1.0)), turn),
-    )
-
-
-def _thrust(block: Member, carrier: Member, place: Vector, along: Vector, balance: _Balance) -> _Unknown:
-    """Return the force of what drives a block along its line."""
-    back = _scaled(along, -1.0)
-
-    def tell(found: Any) -> None:
-        balance.effort = found
-        balance.apply(block, place, _scaled(along, found))
-        balance.apply(carrier, place, _scaled(back, found))
-
-    return _Unknown(((block, place, along), (carrier, place, back)), (), tell)
-
-
-def _couple(shares: tuple[tuple[Member, float], ...], gear: str, balance: _Balance) -> _Unknown:
-    """Return the moment of a pair of gears, or of the motor where none is named."""
-    size_of = balance.linkage.longest
-
-    def tell(forces: Any) -> None:
-        moment = forces * size_of
-        if gear:
-            balance.gears[gear] = None, None, moment
-        else:
-            balance.effort = moment
-        for member, share in shares:
-            balance.couples[member] = balance.couples[member] + share * moment
-
-    return _Unknown((), shares, tell)
-
-
-_KINDS: Mapping[type[Joint], Callable[[Any, _Balance], None]] = {
+_KINDS: Mapping[type[Joint], Callable[[Any, ForceBalance], None]] = {
     RRR: _bars,
     RRP: _bar_to_slider,
     RPR: _slot,
@@ -637,14 +457,12 @@ _KINDS: Mapping[type[Joint], Callable[[Any, _Balance], None]] = {
     DrivenSlider: _driven_slider,
     Rigid: _point,
     Brace: _point,
-    GroupPoint: _together,
-    GroupSlider: _together,
 }
 
 
-def _balanced(motion: Any) -> _Balance:
+def _balanced(motion: Any) -> ForceBalance:
     """Return the balance of a motion after all joints."""
-    balance = _Balance(motion)
+    balance = ForceBalance(motion)
     for strut in (*balance.linkage.springs, *balance.linkage.dampers):
         _pull(strut, balance)
     for body in balance.linkage.bodies:
@@ -654,14 +472,14 @@ def _balanced(motion: Any) -> _Balance:
     balance.shake()
     for joint in reversed(balance.linkage.joints):
         if not joint.fixed:
-            _KINDS[type(joint)](joint, balance)
+            _KINDS.get(type(joint), _together)(joint, balance)
     for joint in balance.linkage.joints:
         if joint.fixed:
             balance.meet(joint.name, 0, balance.pins[joint.name])
     return balance
 
 
-def _pull(strut: Spring | Damper, balance: _Balance) -> None:
+def _pull(strut: Spring | Damper, balance: ForceBalance) -> None:
     """Let a spring or damper pull at the pins at its ends."""
     motion = balance.motion
     rigid = holding(balance.linkage.rigid_bodies, strut.between) is not None
@@ -674,14 +492,14 @@ def _pull(strut: Spring | Damper, balance: _Balance) -> None:
     else:
         share = over(known.force, known.length)
         balance.nowhere = balance.nowhere | (np.equal(known.length, 0.0) & np.not_equal(known.force, 0.0))
-    pull = _scaled(apart, share)
+    pull = times(apart, share)
     first, last = strut.between
-    balance.pins[first] = _sum(balance.pins[first], pull)
-    balance.pins[last] = _difference(balance.pins[last], pull)
+    balance.pins[first] = plus(balance.pins[first], pull)
+    balance.pins[last] = minus(balance.pins[last], pull)
     balance.noise = balance.noise + ROUNDING * abs(known.force) + force_rounding(motion, strut)
 
 
-def _weigh(body: Body, balance: _Balance) -> None:
+def _weigh(body: Body, balance: ForceBalance) -> None:
     """Let a body's weight and its inertia act on it."""
     motion, linkage = balance.motion, balance.linkage
     member = member_of(linkage, body)
@@ -705,12 +523,12 @@ def _weigh(body: Body, balance: _Balance) -> None:
         balance.noise = balance.noise + (ROUNDING * abs(turning) + jerk) / linkage.longest
 
 
-def _press(load: Load, balance: _Balance) -> None:
+def _press(load: Load, balance: ForceBalance) -> None:
     """Let a load act on its body."""
     body = balance.linkage.body(load.on)
     member = member_of(balance.linkage, body)
     arm, force = loaded(balance.motion, load)
-    balance.apply(member, _sum(balance.place(body.slider or body.joints[0]), arm), force)
+    balance.apply(member, plus(balance.place(body.slider or body.joints[0]), arm), force)
     balance.couples[member] = balance.couples[member] + load.torque / balance.linkage.metre
     torque = abs(load.torque) / (balance.linkage.metre * balance.linkage.longest)
     balance.noise = balance.noise + ROUNDING * (size(force) + torque)
@@ -750,7 +568,7 @@ def _stacked(motion: Any) -> Array:
     return np.stack(_listed(_balanced(motion)))
 
 
-def _listed(balance: _Balance) -> list[Array]:
+def _listed(balance: ForceBalance) -> list[Array]:
     """Return all numbers that are told, as computed: an array of each, to be read."""
     told = [part for forces in balance.joints.values() for force in forces.values() for part in force]
     told += [part for guide in balance.guides.values() for part in guide]
@@ -765,7 +583,7 @@ def _reach(linkage: Linkage) -> float:
     return linkage.longest + max((math.hypot(*pin.position) for pin in linkage.pins), default=0.0)
 
 
-def _as_reactions(balance: _Balance, unknowns: list[Array]) -> Reactions:
+def _as_reactions(balance: ForceBalance, unknowns: list[Array]) -> Reactions:
     """Return the numbers in their places: 0 for rounding errors, infinite where they are unbounded."""
     linkage, metre, phase = balance.linkage, balance.linkage.metre, np.asarray(balance.motion.phase)
     nowhere = np.isnan(phase) | balance.nowhere
@@ -807,7 +625,10 @@ def _as_reactions(balance: _Balance, unknowns: list[Array]) -> Reactions:
             for joint in linkage.by_name
             if len(joints[joint]) > 1 or joint in ends
         },
-        {balance.members.names[block_of(linkage, name)]: guide for name, guide in guides.items()},
+        {
+            balance.members.names[member_with(linkage, linkage.joint(name).block)]: guide
+            for name, guide in guides.items()
+        },
         gears,
         (force(own), force(own)),
         without_rounding(next(numbers) * metre, own * (_reach(linkage) * metre)),

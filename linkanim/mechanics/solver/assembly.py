@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from linkanim.bounds import MOST_DYAD_TURNS, MOST_GEARED_TURNS, MOST_TURNS
 from linkanim.errors import AssemblyError, DyadAtLimit
 from linkanim.mechanics.arithmetic import Constant, Graph, MovingPoint, Slope, Value
-from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import batch
-from linkanim.mechanics.solver.closing import CLOSERS, Assembly, refuse_loose, walk_at
+from linkanim.mechanics.solver.closing import Assembly, closer_of, refuse_loose, walk_at
 from linkanim.mechanics.solver.input import InputPath, Swing, Turn
 from linkanim.mechanics.solver.loop import Gearing, Loop, arcs_of, gearings, open_arcs
 from linkanim.mechanics.solver.signed_root import Kind
@@ -32,14 +32,19 @@ def assemble(linkage: Linkage) -> Assembly:
     arcs = open_arcs(linkage, loops)
     paths: tuple[InputPath, ...] = ()
     course = None
-    if group := group_of(scaled):
-        path, course = group.followed(scaled, 1.0 / scale)
+    if together := _together(scaled):
+        path, course = together.group.followed(scaled, 1.0 / scale)
         paths = () if course.by_angle else (_within(arcs, path),)
     turns = course.turns if course and not paths else 1
     return _named(
         Assembly(scaled, loops, path, {}, 1.0 / scale, course=course)
         for path in paths or _paths(scaled, loops, arcs, 1.0 / scale, turns)
     )
+
+
+def _together(linkage: Linkage) -> Any:
+    """Return a joint that is solved together with others; None where all are closed one by one."""
+    return next((joint for joint in linkage.joints if joint.grouped), None)
 
 
 def _within(arcs: list[Swing] | None, path: InputPath) -> InputPath:
@@ -58,7 +63,7 @@ def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop
 
     A loop that limits a geared crank is left to the general closure.
     """
-    loops = ((joint.name, CLOSERS[type(joint)].loop(joint, linkage, gears)) for joint in linkage.joints)
+    loops = ((joint.name, closer_of(joint).loop(joint, linkage, gears)) for joint in linkage.joints)
     own = linkage.drive.joint
     return {name: loop for name, loop in loops if loop and (loop.pin == own or not loop.limits)}
 
@@ -117,7 +122,7 @@ def starts(linkage: Linkage) -> list[float]:
 
     Of an input that these loops let turn fully it is its own start. A slider that drives has no start.
     """
-    if linkage.drive.actuator.noun or group_of(linkage):
+    if linkage.drive.actuator.noun or _together(linkage):
         return []
     assembly = assemble(linkage)
     arcs = open_arcs(assembly.linkage, assembly.loops)

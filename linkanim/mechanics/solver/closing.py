@@ -47,7 +47,6 @@ from linkanim.mechanics.arithmetic import (
     sqrt,
     usual,
 )
-from linkanim.mechanics.groups import GroupPoint, GroupSlider
 from linkanim.mechanics.linkage import (
     RPP,
     RPR,
@@ -1027,7 +1026,7 @@ def yoke_name(joint: RPP, assembly: Assembly) -> str:
     return to_say("Scotch yoke") if unit(joint.slot)[0] == 0 else to_say("Scotch yoke, oblique slot")
 
 
-def place_group(point: GroupPoint, walk: Walk) -> None:
+def place_group(point: Any, walk: Walk) -> None:
     """Add all points of a group and all of its links, at the first of them."""
     if walk.exact:
         raise DyadAtLimit(f"joint {point.name}: it is not known to fifty digits, which a dyad's limit needs")
@@ -1057,10 +1056,13 @@ CLOSERS: Mapping[type[Joint], Closer] = {
     RRP: Closer(close_slider, loop_of_slider, slider_name),
     RPR: Closer(close_slot, loop_of_slot, slot_name),
     RPP: Closer(close_yoke, name=yoke_name),
-    GroupPoint: Closer(place_group),
-    GroupSlider: Closer(place_group),
 }
-"""Every kind that a linkage can be made of."""
+"""Every kind that a linkage can be made of, but the joints of a group."""
+
+
+def closer_of(joint: Joint) -> Closer:
+    """Return what solves a joint."""
+    return CLOSERS.get(type(joint)) or Closer(place_group)
 
 
 def walked(assembly: Assembly, state: InputState, mover: str = "") -> Walk:
@@ -1074,7 +1076,7 @@ def walked(assembly: Assembly, state: InputState, mover: str = "") -> Walk:
 def walking(walk: Walk) -> Iterator[Joint]:
     """Walk over the linkage, and yield each joint that is done."""
     for joint in walk.linkage.joints:
-        CLOSERS[type(joint)].close(joint, walk)
+        closer_of(joint).close(joint, walk)
         if joint.name == walk.mover:
             walk.lead(joint.name)
         yield joint
