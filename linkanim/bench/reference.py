@@ -84,7 +84,7 @@ class Answer:
         with np.errstate(all="ignore"):
             solved = solve(self.question)
             error, *rates = self.errors(solved)
-            wrong, missing = self._elsewhere(solved[0]), ~np.isfinite(error)
+            wrong, missing = self._on_another(solved[0]), ~np.isfinite(error)
             right = ~wrong & ~missing
         worst = [_worst(one, right) for one in (error, *rates)]
         position, velocity, acceleration, *_ = (*(largest for largest, _ in worst), np.nan, np.nan)
@@ -92,7 +92,7 @@ class Answer:
         at = tuple(float(given[n]).hex() for _, n in worst)
         return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()), at)
 
-    def _elsewhere(self, places: Places) -> Any:
+    def _on_another(self, places: Places) -> Any:
         """Return which poses are on another closure than the right one, as a mask."""
         here, apart = self.orders[0], APART * self.question.longest
         return np.any(

@@ -49,7 +49,6 @@ from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.editing import (
     Dimension,
     dimensions,
-    dragged,
     driven_at,
     drives,
     handles,
@@ -481,7 +480,7 @@ def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key
     values = {}
     for handle, unit in held.following:
         step = _step_of(unit) * Decimal(repr(share))
-        value = step * round(Decimal(repr(dragged(handle, places, point))) / step)
+        value = step * round(Decimal(repr(handle.value(places, point))) / step)
         values[handle.key] = f"{value.normalize():f}"
     return values
 

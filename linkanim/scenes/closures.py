@@ -86,14 +86,14 @@ def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[
         return
     choices = closure_choices(scene)
     _refuse_many(len(choices))
-    ways = [*product(*([one.name, one.other] for one in choices))]
+    ways = [*product(*(names for _, *names in choices))]
     for n, way in enumerate(ways):
         told(n, len(ways))
         document = scene.document
-        for choice, name in zip(choices, way, strict=True):
-            document = replaced(document, choice.key, name)
+        sides = {}
+        for (key, *_), name in zip(choices, way, strict=True):
+            document, sides[key[-2]] = replaced(document, key, name), name
         try:
-            sides = {choice.joint: name for choice, name in zip(choices, way, strict=True)}
             yield (with_document(scene, document) if n else scene), sides
         except LinkanimError:
             continue

@@ -105,6 +105,38 @@ class _Quantity(NamedTuple):
     values: Callable[[Any], Real]
     ends: tuple[float, float] | None = None
 
+    def less(self, one: Real, other: Real) -> Real:
+        """Return a difference; of angles at most half a turn."""
+        off = one - other
+        return np.asarray((off + np.pi) % (2 * np.pi) - np.pi if self.is_angle else off)
+
+    def off(self, scene: Scene, phases: Real, effects: Real, draw: Draw | None) -> Off:
+        """Return how far it is off by the effects (L, P, 1 or 2) of all lengths, and by the samples."""
+        bound = _farthest(effects)
+        likely = greatest = np.nan
+        if draw:
+            places = (draw, lambda phase: scene.solve(phase=[phase], derivatives=0))
+            if self.ends:
+                drawn, exact = (self._strokes(*self.ends, solve)[:, None] for solve in places)
+            else:
+                drawn, exact = (self.values(solve(float(phases[bound.argmax()]))) for solve in places)
+            off = np.linalg.norm(self.less(drawn, exact), axis=1)
+            off = off[np.isfinite(off)]
+            likely, greatest = (float(np.quantile(off, share)) for share in (LIKELY, 1.0))
+        alone = np.linalg.norm(effects, axis=2)
+        return Off(self.name, self.is_angle, phases, bound, alone, likely, greatest)
+
+    def _strokes(self, back: float, forth: float, solve: Callable[[float], Any]) -> Real:
+        """Return the strokes of linkages, each between its own dead centres, by a parabola beside ours."""
+        extremes = []
+        for end in (back, forth):
+            low, middle, high = (self.values(solve(end + way))[:, 0] for way in (-_BESIDE, 0.0, _BESIDE))
+            if self.is_angle:
+                low, high = (middle + self.less(side, middle) for side in (low, high))
+            bend = low - 2 * middle + high
+            extremes.append(middle - (high - low) ** 2 / (8 * bend))
+        return self.less(extremes[1], extremes[0])
+
 
 def tolerance(
     scene: Scene | str,
@@ -158,9 +190,9 @@ def tolerance(
         off = by * every[acts]
         if one.ends:
             back, forth = (off[:, [len(phases) + strokes.index(end)]] for end in one.ends)
-            deviations.append(_off(scene, one, np.empty(0), forth - back, draw))
+            deviations.append(one.off(scene, np.empty(0), forth - back, draw))
         else:
-            deviations.append(_off(scene, one, phases, off[:, : len(phases)], draw))
+            deviations.append(one.off(scene, phases, off[:, : len(phases)], draw))
     return Tolerance(scene, by, used, tuple(deviations))
 
 
@@ -209,12 +241,6 @@ def _angle(name: str) -> Callable[[Any], Real]:
     return lambda motion: np.asarray(motion.angle[name])[:, None]
 
 
-def _less(one: Real, other: Real, *, is_angle: bool) -> Real:
-    """Return a difference; of angles at most half a turn."""
-    off = one - other
-    return np.asarray((off + np.pi) % (2 * np.pi) - np.pi if is_angle else off)
-
-
 def _own(scene: Scene, names: tuple[str, ...]) -> Real:
     values = {one.key: one.value for one in dimensions(scene)}
     return np.array([float(values[named_lengths(scene)[name].key]) for name in names])
@@ -241,7 +267,7 @@ def _effects(
     effects = []
     for one in quantities:
         values = one.values(motion).reshape(*away.shape, len(phases), -1)
-        apart = _less(values[:, :, :, 0], values[:, :, :, 1], is_angle=one.is_angle)
+        apart = one.less(values[:, :, :, 0], values[:, :, :, 1])
         slopes = np.einsum("lhkpc,k->lhpc", apart, _STENCIL) / steps[:, :, None, None]
         off = np.nan_to_num(np.abs(np.diff(slopes, axis=1)), nan=np.inf).max(axis=-1)
         first = (off[:, 0] <= off[:, 1]) & np.isfinite(slopes[:, 1]).all(axis=-1)
@@ -257,36 +283,6 @@ def _drawn(scene: Scene, names: tuple[str, ...], by: float, samples: int) -> Dra
     errors = np.random.default_rng(_SEED).uniform(-by, by, (len(names), samples))
     lengths = dict(zip(names, _own(scene, names)[:, None] + errors, strict=True))
     return cache(lambda phase: solve_many(scene, lengths, phase))
-
-
-def _off(scene: Scene, one: _Quantity, phases: Real, effects: Real, draw: Draw | None) -> Off:
-    """Return how far a quantity is off by the effects (L, P, 1 or 2) of all lengths, and by the samples."""
-    bound = _farthest(effects)
-    likely = greatest = np.nan
-    if draw:
-        places = (draw, lambda phase: scene.solve(phase=[phase], derivatives=0))
-        if one.ends:
-            drawn, exact = (_strokes(one, one.ends, solve)[:, None] for solve in places)
-        else:
-            drawn, exact = (one.values(solve(float(phases[bound.argmax()]))) for solve in places)
-        off = np.linalg.norm(_less(drawn, exact, is_angle=one.is_angle), axis=1)
-        off = off[np.isfinite(off)]
-        likely, greatest = (float(np.quantile(off, share)) for share in (LIKELY, 1.0))
-    alone = np.linalg.norm(effects, axis=2)
-    return Off(one.name, one.is_angle, phases, bound, alone, likely, greatest)
-
-
-def _strokes(one: _Quantity, ends: tuple[float, float], solve: Callable[[float], Any]) -> Real:
-    """Return the strokes of linkages, each between its own dead centres, by a parabola beside ours."""
-    extremes = []
-    for end in ends:
-        low, middle, high = (one.values(solve(end + way))[:, 0] for way in (-_BESIDE, 0.0, _BESIDE))
-        if one.is_angle:
-            low, high = (middle + _less(side, middle, is_angle=True) for side in (low, high))
-        bend = low - 2 * middle + high
-        extremes.append(middle - (high - low) ** 2 / (8 * bend))
-    back, forth = extremes
-    return _less(forth, back, is_angle=one.is_angle)
 
 
 def _farthest(effects: Real) -> Real:

@@ -357,9 +357,9 @@ def in_unit(scene: Scene, unit: str | None) -> Scene:
     """
     if unit is None or unit == scene.length_unit:
         return scene
-    if unit not in scene.elsewhere:
-        scene.elsewhere[unit] = _read_in(scene, unit)
-    return scene.elsewhere[unit]
+    if unit not in scene.derived:
+        scene.derived[unit] = _read_in(scene, unit)
+    return scene.derived[unit]
 
 
 def _read_in(scene: Scene, unit: str) -> Scene:
@@ -383,13 +383,8 @@ def _read_in(scene: Scene, unit: str) -> Scene:
 _OTHER_CLOSURE = "other closure"
 
 
-class ClosureChoice(NamedTuple):
-    """Where a document says which closure holds: the key, that closure, the other one, the joint."""
-
-    key: tuple[str, ...]
-    name: str
-    other: str
-    joint: str
+ClosureChoice = tuple[tuple[str, ...], str, str]
+"""Where a document says which closure holds: the key, behind its joint's; that closure; and the other one."""
 
 
 def other_closure(scene: Scene) -> Scene:
@@ -401,10 +396,11 @@ def other_closure(scene: Scene) -> Scene:
     choice = _choice(scene)
     if choice is None:
         raise AssemblyError(f"{scene.name} has no second closure: no loop of it can be put together two ways")
-    other = scene.elsewhere.pop(_OTHER_CLOSURE, None)
-    other = other or with_document(scene, replaced(scene.document, choice.key, choice.other))
-    if replaced(other.document, choice.key, choice.name) == scene.document:
-        other.elsewhere[_OTHER_CLOSURE] = scene  # going back needs no search
+    key, name, other_name = choice
+    other = scene.derived.pop(_OTHER_CLOSURE, None)
+    other = other or with_document(scene, replaced(scene.document, key, other_name))
+    if replaced(other.document, key, name) == scene.document:
+        other.derived[_OTHER_CLOSURE] = scene  # going back needs no search
     return other
 
 
@@ -428,7 +424,7 @@ def other_return(scene: Scene) -> Scene:
 def closure_name(scene: Scene) -> str | None:
     """Return the name of the first loop's closure (open, crossed, ...); None where it has no other."""
     choice = _choice(scene)
-    return choice and said(choice.name)
+    return choice and said(choice[1])
 
 
 def ghost_of(scene: Scene) -> Scene | None:
@@ -437,10 +433,10 @@ def ghost_of(scene: Scene) -> Scene | None:
     It is cached until it is asked for as a scene of its own.
     """
     try:
-        scene.elsewhere[_OTHER_CLOSURE] = other_closure(scene)
+        scene.derived[_OTHER_CLOSURE] = other_closure(scene)
     except LinkanimError:
         return None
-    return scene.elsewhere[_OTHER_CLOSURE]
+    return scene.derived[_OTHER_CLOSURE]
 
 
 def _choice(scene: Scene) -> ClosureChoice | None:
@@ -462,8 +458,7 @@ def closure_choices(scene: Scene) -> list[ClosureChoice]:
         for name in tables:
             table = table[name]
         now = table.get(key, options[0])
-        joint = tables[-1]
-        choices.append(ClosureChoice((*tables, key), now, options[now == options[0]], joint))
+        choices.append(((*tables, key), now, options[now == options[0]]))
     return choices
 
 
@@ -514,25 +509,24 @@ class Handle:
     part: int | None = None
     angle: bool = False
 
+    def value(self, places: Mapping[str, Point], point: Point) -> float:
+        """Return the value with the joint at `point`, the others at their places; angles in degrees."""
+        if self.on:
+            (x0, y0), (x1, y1) = (places[name] for name in self.on)
+            length = hypot(x1 - x0, y1 - y0)
+            ux, uy, x, y = (x1 - x0) / length, (y1 - y0) / length, point[0] - x0, point[1] - y0
+            return -x * uy + y * ux if self.part else x * ux + y * uy
+        if self.part is not None:
+            return point[self.part]
+        x, y = places[self.start] if self.start else (0.0, 0.0)
+        return degrees(atan2(point[1] - y, point[0] - x)) if self.angle else hypot(point[0] - x, point[1] - y)
+
 
 def handles(scene: Scene, joint: str) -> tuple[Handle, ...]:
     """Return the dimensions that follow a joint; none where it is found from other joints alone."""
     own = scene.linkage.joint(joint)
     dragged = [number for number in numbers(scene.document) if number.field.drag]
     return tuple(handle for number in dragged for handle in _handles(number, own, scene))
-
-
-def dragged(handle: Handle, places: Mapping[str, Point], point: Point) -> float:
-    """Return a dimension's value with its joint at `point`, the others at their places; angles in degrees."""
-    if handle.on:
-        (x0, y0), (x1, y1) = (places[name] for name in handle.on)
-        length = hypot(x1 - x0, y1 - y0)
-        ux, uy, x, y = (x1 - x0) / length, (y1 - y0) / length, point[0] - x0, point[1] - y0
-        return -x * uy + y * ux if handle.part else x * ux + y * uy
-    if handle.part is not None:
-        return point[handle.part]
-    x, y = places[handle.start] if handle.start else (0.0, 0.0)
-    return degrees(atan2(point[1] - y, point[0] - x)) if handle.angle else hypot(point[0] - x, point[1] - y)
 
 
 def _handles(number: Number, joint: Joint, scene: Scene) -> Iterator[Handle]:

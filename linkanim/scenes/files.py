@@ -107,33 +107,26 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     return _photographed(scene_from(document, name=intake.named(path.stem), where=where), path.parent)
 
 
-class ForeignDocument(NamedTuple):
-    """The document of a linkage of another program, the words for its file, and what of it was left out."""
-
-    document: dict[str, Any]
-    where: str
-    left_out: tuple[str, ...]
-
-
-def foreign_document(name_or_path: str | os.PathLike[str]) -> ForeignDocument | None:
+def foreign_document(
+    name_or_path: str | os.PathLike[str],
+) -> tuple[dict[str, Any], str, tuple[str, ...]] | None:
     """Return the document of another program's file, or link; None for a scene file, or a name.
 
-    BadInput, with what it seems to be, for a file that cannot be read so.
+    Behind it come the words for the file, and what of it was left out. BadInput, with what it seems to be,
+    for a file that cannot be read so.
     """
     from linkanim.scenes.foreign import is_link, read_foreign, read_text
 
     text, path = os.fspath(name_or_path), Path(name_or_path)
     if is_link(text):
         foreign = read_text(text, "the link")
-        return ForeignDocument(
-            foreign.document("link", "converted from a link"), "the link", foreign.left_out
-        )
+        return foreign.document("link", "converted from a link"), "the link", foreign.left_out
     if path.suffix.lower() == ".toml" or not (path.suffix or path.is_file()):
         return None
     where = intake.named(path)
     foreign = read_foreign(path, where)
     title, source = intake.named(path.stem), f"converted from {intake.named(path.name)}"
-    return ForeignDocument(foreign.document(title, source), where, foreign.left_out)
+    return foreign.document(title, source), where, foreign.left_out
 
 
 def opened(name_or_path: str | os.PathLike[str]) -> tuple[Scene, tuple[str, ...]]:

@@ -573,11 +573,8 @@ def _written(ratio: Fraction) -> int | str:
 # The document with [joints] that says the same.
 
 
-class AsJoints(NamedTuple):
-    """A document with [joints], and the joints of a group, which no table of a joint can say."""
-
-    document: dict[str, Any]
-    group: tuple[GroupPoint, ...] = ()
+AsJoints = tuple[dict[str, Any], tuple[GroupPoint, ...]]
+"""A document with [joints], and the joints of a group, which no table of a joint can say."""
 
 
 def as_joints(top: Table, *, whole: bool = False) -> AsJoints | None:
@@ -607,7 +604,7 @@ def _as_joints(
     if "slide" not in drive and (motor := _moving_motor(chain, drive)):
         driven = _by_moving_motor(chain, motor)
         chain, group = _group(lambda: _Dyads(top, pose), whole=whole, motor=motor)
-        return AsJoints(_document(top, pose, chain, driven), group)
+        return _document(top, pose, chain, driven), group
     driven = _by_slide(chain, slide) if "slide" in drive else _by_motor(chain, drive)
     while chain.grow():
         pass
@@ -628,7 +625,7 @@ def _as_joints(
         chain, group = _group(cranked, whole=whole)
     if "slider" in driven:
         driven["slider"] = _travel(chain, driven["slider"])
-    return AsJoints(_document(top, pose, chain, driven), group)
+    return _document(top, pose, chain, driven), group
 
 
 def _refuse_ends(table: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> None:
@@ -725,17 +722,11 @@ def _group(
     return chain, tuple((GroupSlider if name in blocks else GroupPoint)(name, group) for name in points)
 
 
-class _Around(NamedTuple):
-    """A group among dyads: these, what is known before the group, its links, and those that it hangs on."""
+def _apart(begun: Callable[[], _Dyads], parts: _Parts) -> tuple[_Dyads, set[str], list[str], set[str]] | None:
+    """Return the dyads around the links from the first smallest group to the last one, and these links.
 
-    chain: _Dyads
-    known: set[str]
-    own: list[str]
-    before: set[str]
-
-
-def _apart(begun: Callable[[], _Dyads], parts: _Parts) -> _Around | None:
-    """Return the links from the first smallest group to the last one, and the dyads around them."""
+    They are: the dyads, what is known before the group, its links, and those that it hangs on.
+    """
     own: set[str] = set()
     while True:
         chain = begun()
@@ -754,7 +745,7 @@ def _apart(begun: Callable[[], _Dyads], parts: _Parts) -> _Around | None:
                 waiting = {name for one in waiting for name in links.get(one, ())} - before
             for name in own:
                 chain.blocks.pop(name, None)
-            return _Around(chain, known, [name for name in parts.pose.links if name in own], before)
+            return chain, known, [name for name in parts.pose.links if name in own], before
         more = parts.smallest(chain)
         if not more:
             return None
@@ -1027,7 +1018,7 @@ def _by_length(top: Table, pose: PosedLinks, slide: PosedSlide, *, whole: bool) 
     if len(ends) < 2:
         ends = dict(zip(("from", "to"), _limits(pose, group, driven), strict=True)) | ends
     slider = {"slider": {"joint": driven.name, **ends}}
-    return AsJoints(_document(top, pose, chain, {**stated, **slider}), group)
+    return _document(top, pose, chain, {**stated, **slider}), group
 
 
 def _limits(pose: PosedLinks, group: tuple[GroupPoint, ...], driven: GroupPoint) -> tuple[float, float]:

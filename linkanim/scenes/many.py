@@ -176,9 +176,7 @@ def _layout_of(pose: Pose, derivatives: int) -> tuple[ResultPlaces, int]:
 
 def _number(scene: Scene, name: str) -> Number:
     """Return the number that a name calls; BadInput, with all names, where it calls none."""
-    known: dict[str, Number] = vars(scene).get("_lengths") or vars(scene).setdefault(
-        "_lengths", _named(scene)
-    )
+    known = named_lengths(scene)
     if name in known:
         return known[name]
     listed = dict.fromkeys(".".join(map(str, number.key[1:])) for number in known.values())

@@ -201,7 +201,7 @@ class Scene:
         return 10.0 ** round(math.log10(min(longest, size or longest) / 3000))
 
     @cached_property
-    def elsewhere(self) -> dict[str, Scene]:
+    def derived(self) -> dict[str, Scene]:
         """The scene in other units of length, and on its "other closure", as far as they were asked for."""
         return {}
 
