@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Constant, Expr, Value, rint, select
-from linkanim.mechanics.tolerances import STATED
+from linkanim.mechanics.tolerances import GAP, MARKED, STATED
 from linkanim.units import PI_REST, Angle
 
 # Sines and cosines out of + - × ÷ and rint alone.
@@ -443,7 +443,7 @@ def snapped(number: Sum, marks: Iterable[float], reach: float) -> Sum:
     `reach` is the size of the coordinates from which the number was computed, with a direction's sine and
     cosine.
     """
-    return next((Sum(mark) for mark in marks if abs(float(number) - mark) <= reach * 2.0**-51), number)
+    return next((Sum(mark) for mark in marks if abs(float(number) - mark) <= reach * MARKED), number)
 
 
 def gap(*lengths: float) -> float:
@@ -453,7 +453,7 @@ def gap(*lengths: float) -> float:
     perimeter is the rounding of the lengths, not a gap.
     """
     rest, perimeter = total(*lengths), math.fsum(abs(length) for length in lengths)
-    return 0.0 if abs(float(rest)) <= perimeter * 2.0**-53 else rest
+    return 0.0 if abs(float(rest)) <= perimeter * GAP else rest
 
 
 def total(*lengths: float) -> Constant:

@@ -14,7 +14,7 @@ from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.solver import courses
 from linkanim.mechanics.solver.following import LinkEquations, system_of
-from linkanim.mechanics.tolerances import ONE_CLOSURE, SOLVED
+from linkanim.mechanics.tolerances import BESIDE_A_LIMIT, ONE_CLOSURE, SOLVED
 
 STARTS, _ROUNDS, _REACH = 3000, 40, 2.0
 """How many poses Newton's method starts from, and for how long; how far they reach, in lengths of links."""
@@ -74,7 +74,7 @@ def _solved(system: LinkEquations) -> Array:
 def _step(system: LinkEquations, y: Array) -> Array:
     """Return Newton's steps (N, m - 1), of a turn at the most a radian; none where they are not known."""
     matrix, right = system.jacobian(y)[:, :, :-1], system.residual(y)
-    normal = np.einsum("nij,nik->njk", matrix, matrix) + 1e-14 * np.eye(matrix.shape[2])
+    normal = np.einsum("nij,nik->njk", matrix, matrix) + BESIDE_A_LIMIT * np.eye(matrix.shape[2])
     try:
         step = np.linalg.solve(matrix, right[..., None])[..., 0]
     except np.linalg.LinAlgError:

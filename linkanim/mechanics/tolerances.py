@@ -26,6 +26,10 @@ ROUNDED_LENGTHS = 2.0**-48
 """Share of the longest bar by which rounded lengths may be off: within it bars just fall into line."""
 NEARLY_A_KITE = 1 / 4
 """Share of the longest by which ground and crank, and the two bars, differ at most next to a kite."""
+GAP = 2.0**-53
+"""Share of the perimeter below which a sum of signed lengths is none: it is the rounding of the lengths."""
+MARKED = 2.0**-51
+"""Share of the coordinates that a length comes from within which it is the length that it is near."""
 KITE = 2.0**-51
 """Share of the perimeter that rounded lengths of a kite may differ by."""
 CHANGE_POINT = 1e-12
@@ -102,6 +106,12 @@ AT_END = 1e-6
 and pace may both have no digits."""
 NEARLY_ZERO = 1e-8
 """Half a last digit of this number is more than the error of a limit."""
+NUDGE = 1e-15
+"""How far beside a place, in phase and fifty digits, a margin is taken for its slope and bend there."""
+CONVERGED = 1e-25
+"""A step of Newton's method for a zero or an extreme, in fifty digits, below which it is found."""
+SETTLED = 1e-24
+"""A step for the limit of a loop, in fifty digits, after which the next is below all digits."""
 NEARBY = 1e-6
 """How far a zero may lie from where floats found it, in phase."""
 NO_WAY = 1e-5
@@ -128,6 +138,8 @@ AT_LIMIT = 2.0**-50
 """How far from a limit a stated end of the input may be, and be that limit, in lengths of the linkage."""
 APART = 1e-3
 """How far from the ends of a group's path, in radians, the limits of a dyad beside it are at the least."""
+BESIDE_A_LIMIT = 1e-14
+"""What is added to the squares of equations that leave Newton's step open, as they do at a limit."""
 ONE_CLOSURE = 1e-6
 """What two solutions from different starts differ by, and are one closure."""
 SAME_POSE = 1e-9

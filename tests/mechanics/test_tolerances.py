@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
+from decimal import Decimal
 from pathlib import Path
 
 from linkanim.mechanics import tolerances
@@ -28,14 +30,22 @@ def test_every_tolerance_has_a_reason_and_is_used() -> None:
         assert re.search(rf"\b{name}\b", used), name
 
 
+def numbers(code: ast.AST) -> Iterator[float]:
+    """Yield the numbers that are written in code, powers and Decimals among them."""
+    for node in ast.walk(code):
+        if isinstance(node, ast.Constant) and isinstance(node.value, float):
+            yield node.value
+        elif re.fullmatch(
+            r"Decimal\('[-+.e0-9]+'\)|(Decimal\(10\)|[0-9.]+) \*\* \(?-[0-9]+\)?", ast.unparse(node)
+        ):
+            yield float(eval(ast.unparse(node), {"Decimal": Decimal}))
+
+
 def test_no_module_has_a_tolerance_of_its_own() -> None:
-    own = []
-    for path, text in sources().items():
-        for statement in ast.parse(text).body:
-            if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-                code = ast.unparse(statement.value)
-                number = (
-                    float(eval(code)) if re.fullmatch(r"[-+*/.()e0-9 ]+", code) and "," not in code else 1.0
-                )
-                own += [f"{path}: {statement.targets[0].id}"] * (0 < abs(number) < SMALL)
+    own = [
+        (path, number)
+        for path, text in sources().items()
+        for number in numbers(ast.parse(text))
+        if 0 < abs(number) < SMALL
+    ]
     assert own == []

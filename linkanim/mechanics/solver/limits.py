@@ -51,6 +51,7 @@ from linkanim.mechanics.tolerances import (
     AT_END,
     BARELY,
     BESIDE_AN_EXTREME,
+    CONVERGED,
     FLAT,
     JUST_AFTER,
     LAST,
@@ -59,6 +60,7 @@ from linkanim.mechanics.tolerances import (
     NEARBY,
     NO_DIGITS,
     NO_WAY,
+    NUDGE,
     OFF,
     ROUNDED_LENGTHS,
     SAME_PLACE,
@@ -100,8 +102,7 @@ class Sample(NamedTuple):
 
 STEPS, SLOW = 40, 12
 """The most steps of Newton's method, and the count after which they are summed as a geometric series."""
-NUDGE = Decimal(10) ** -15
-CONVERGED = Decimal(10) ** -25
+BESIDE = Decimal(repr(NUDGE))
 POINTS = 20
 POINTS_OF_A_DIP = 32
 """Samples of a near touch's fit, which has to hold as far as the margin lacks digits: that may be far."""
@@ -170,8 +171,8 @@ def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float,
             root = _newton(Sum(phase), lambda place: _steps(run, place)[1])
             place = Decimal(phase) if root is None else root
             margin, gap = run(place)
-            bend = sum(run(place + nudge)[0] for nudge in (-NUDGE, NUDGE)) - 2 * margin
-            reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
+            bend = sum(run(place + nudge)[0] for nudge in (-BESIDE, BESIDE)) - 2 * margin
+            reach = (-2 * margin / bend).sqrt() * BESIDE if margin < 0 < bend else Decimal(0)
             return nearest_sum(place), float(gap), float(reach)
 
     return extreme
@@ -179,8 +180,8 @@ def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float,
 
 def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
     """Return the steps to the margin's zero and to its extreme."""
-    before, here, after = (run(place + nudge)[0] for nudge in (-NUDGE, 0, NUDGE))
-    slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
+    before, here, after = (run(place + nudge)[0] for nudge in (-BESIDE, 0, BESIDE))
+    slope, bend = (after - before) / (2 * BESIDE), (after - 2 * here + before) / BESIDE**2
     return here / slope, slope / bend
 
 

@@ -50,7 +50,7 @@ from linkanim.mechanics.arithmetic import (
 from linkanim.mechanics.arithmetic import root as root_of
 from linkanim.mechanics.precise import context, nearest_sum, sine_and_cosine
 from linkanim.mechanics.solver.input import Ends
-from linkanim.mechanics.tolerances import CLOSE, CLOSEST, KITE, OWN_LIMIT, SMALLEST, WIDE
+from linkanim.mechanics.tolerances import CLOSE, CLOSEST, KITE, OWN_LIMIT, SETTLED, SMALLEST, WIDE
 
 # Where the signed root of a loop closed from a crank pin vanishes: its two factors U and W.
 #
@@ -59,8 +59,8 @@ from linkanim.mechanics.tolerances import CLOSE, CLOSEST, KITE, OWN_LIMIT, SMALL
 # with ψ the crank's angle from the ground line (or a quarter turn behind the normal of a line of travel).
 # The part on signed roots below derives them, and says what a factor does at c > 0, c = 0 and c < 0.
 
-_STEPS, _SETTLED = 8, Decimal("1e-24")
-"""The most steps of Newton's method, and the size of a step after which the next is below all digits."""
+_STEPS = 8
+"""The most steps of Newton's method."""
 
 
 class Kind(Enum):
@@ -156,7 +156,7 @@ def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
         for _ in range(_STEPS):
             sine, cosine = sine_and_cosine(half)
             half += (step := (target - sine * sine) / (2 * sine * cosine))
-            if abs(step) < _SETTLED:
+            if abs(step) < SETTLED:
                 break
         return nearest_sum(2 * half)
 
