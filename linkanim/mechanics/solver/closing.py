@@ -91,7 +91,7 @@ from linkanim.mechanics.solver.signed_root import (
     slider_root,
     slot_root,
 )
-from linkanim.mechanics.tolerances import BESIDE_AN_END, SMALLEST
+from linkanim.mechanics.tolerances import AT_END, BESIDE_AN_END, SMALLEST
 from linkanim.words import to_say
 
 if TYPE_CHECKING:
@@ -284,6 +284,20 @@ class Touch(Stationary):
 class NearTouch(Stationary):
     """A place where the margin comes near zero, and turns back."""
 
+    def rates(self, closing: Closing, q: Moving, state: InputState) -> Slope:
+        """Return ρ of the root q: by the angle of a swing, plainly near its ends, or where the place is one.
+
+        What is smooth in the phase has no digits of its rates by the angle there.
+        """
+        fitted = closing.rates(q)
+        if self.amplitude is None or state.ends is None or state.phase is not None:
+            return fitted
+        sine = math.sin(float(self.place))
+        near = self.amplitude**2 / 4 * (sine * sine / 4 if abs(sine) > AT_END else 1.0)
+        plain = rated_root(q.value, closing.separation, closing.half_difference).ratio
+        aside = state.ends.u.value * state.ends.v.value
+        return Slope(*(select(aside, near, one, other) for one, other in zip(plain, fitted, strict=True)))
+
 
 Zero = End | Touch
 Fitted = Zero | NearTouch
@@ -374,12 +388,11 @@ class ChainRoot:
             root = root.with_altitude(Reduced(closing.across, root.q))
         for near_touch in self.near_touches:
             if near_touch.near is not None:
-                root = _root_near(
-                    near_touch, near_touch.near, closing, (near_touch.distance(state), side), root
-                )
+                there = near_touch.distance(state), side
+                root = _root_near(near_touch, near_touch.near, closing, there, root, state)
         for zero, there in zip(self.zeros, zip(away, others, strict=True), strict=True):
             if zero.near is not None:
-                root = _root_near(zero, zero.near, closing, there, root)
+                root = _root_near(zero, zero.near, closing, there, root, state)
         return root
 
     def side(self, state: InputState) -> Value:
@@ -395,7 +408,12 @@ class ChainRoot:
 
 
 def _root_near(
-    zero: Fitted, near: Near, closing: Closing, there: tuple[SignedDistance, Value], far: SignedRoot
+    zero: Fitted,
+    near: Near,
+    closing: Closing,
+    there: tuple[SignedDistance, Value],
+    far: SignedRoot,
+    state: InputState,
 ) -> SignedRoot:
     """Return the root from its fit next to a zero, else the one from `far` of it.
 
@@ -404,7 +422,7 @@ def _root_near(
     distance, others = there
     fitted = near.root.at(distance.argument)
     q = near.root_at(distance.z, fitted)
-    rho = closing.rates(q)
+    rho = zero.rates(closing, q, state) if isinstance(zero, NearTouch) else closing.rates(q)
 
     def chosen(close: Value, otherwise: Value) -> Value:
         return zero.chosen(distance, near.root.width, close, otherwise)
