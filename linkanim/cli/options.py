@@ -117,7 +117,8 @@ def whole(text: str) -> int:
 
 
 def either_speed(text: str) -> Any:
-    """Read a speed: an angular one in rad/s, or a length in a time."""
+    """Read a speed: an angular one in rad/s, or a length in a time; what has neither unit is told of both."""
+    units.EITHER_SPEED.read(text)
     if not units.names_unit(text, units.TRAVEL_SPEED):
         return units.angular_speed(text)
     from linkanim.scenes.form import TravelSpeed  # so that no other command loads it

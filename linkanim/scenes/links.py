@@ -598,6 +598,10 @@ def _as_joints(
     _refuse_mobility(top, pose)
     chain = _Dyads(top, pose)
     if "cylinder" in drive and not _turns_crank(pose, drive):
+        table = top.table("drive")
+        for holder, key in ((table, "joint"), (table, "links"), (table.table("cylinder"), "joint")):
+            if key in holder:
+                raise holder.error(key, "is that of a crank, but the cylinder turns none; leave it out")
         return _by_length(top, *_with_cylinder(top, pose, drive["cylinder"]["between"]), whole=whole)
     if "slide" in drive and not (slide := _driving(top.table("drive"), pose, drive["slide"])).other(GROUND):
         return _by_length(top, pose, slide, whole=whole)

@@ -432,6 +432,8 @@ TRAVELS = [
     ("of a crank", ("press", "--travel", "2 m"), "its input turns, and has no travel"),
     ("a speed of a crank", ("press", "--angle", "3 deg", "--speed", "2 m/s"), "goes with --travel"),
     ("two places", ("my.toml", "--travel", "2 m", "--coordinate", "1 m"), "say where to solve"),
+    ("no unit", ("my.toml", "--travel", "9 cm", "--speed", "30"), 'write a speed as "30 mm/s" or "30 cm/s"'),
+    ("no such unit", ("my.toml", "--travel", "9 cm", "--speed", "3 ft"), "not one of its units, mm/s, cm/s"),
 ]
 
 

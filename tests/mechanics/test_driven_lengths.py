@@ -373,6 +373,14 @@ REFUSED = {
         {**KNEE, "drive": {**KNEE["drive"], "start": "20 deg"}},
         "is that of a crank, but a length drives these links; leave it out",
     ),
+    "a joint": (
+        {**KNEE, "drive": {**KNEE["drive"], "joint": "K"}},
+        r"drive\.joint = .K.: is that of a crank, but the cylinder turns none; leave it out",
+    ),
+    "a crank of the cylinder": (
+        {**KNEE, "drive": {"cylinder": {**KNEE["drive"]["cylinder"], "joint": "P"}}},
+        r"drive\.cylinder\.joint = .P.: is that of a crank, but the cylinder turns none; leave it out",
+    ),
     "a line that no point shows": (
         {
             **BARREL,

@@ -347,9 +347,7 @@ REFUSED = [
     ),
     (
         "a cylinder that its links do not let be so short",
-        FOUR_BAR.replace(
-            'joint = "O2"', 'joint = "A"\ncylinder = { between = ["O2", "B"], from = 9, to = 10 }'
-        ),
+        FOUR_BAR.replace('joint = "O2"', 'cylinder = { between = ["O2", "B"], from = 9, to = 10 }'),
         "drive.cylinder: ",
         "let the cylinder's length come to 61.3706 mm, not to 9 mm; choose another end",
     ),
