@@ -10,6 +10,7 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -271,11 +272,7 @@ def _loads(balance: Balance) -> None:
         balance.apply(member, f"F_{{{load.name}}}", place, given)
         if load.torque:
             torque = work.quoted(Symbol("T", load.name), f"{load.torque:.12g}", "N m")
-            balance.turn(member, f"T_{{{load.name}}}", torque / _metre(balance))
-
-
-def _metre(balance: Balance) -> Formula:
-    return number(f"{balance.linkage.metre:.12g}")
+            balance.turn(member, f"T_{{{load.name}}}", torque / work.metre)
 
 
 def _weigh(body: Body, balance: Balance) -> None:
@@ -287,7 +284,7 @@ def _weigh(body: Body, balance: Balance) -> None:
     if body.mass is not None:
         mass = work.quoted(Symbol("m", label), f"{body.mass:.12g}", "kg")
         at = body.slider or work.centre(body)
-        bent = NOWHERE if linkage.static else balance.rates.of(at, 2).times(_metre(balance))
+        bent = NOWHERE if linkage.static else balance.rates.of(at, 2).times(work.metre)
         fall = work.quoted(Symbol("g"), f"{linkage.gravity:.12g}", "m/s²") if linkage.gravity else ZERO
         down = Components(bent.x, bent.y + fall)
         sides = zip("xy", down, strict=True)
@@ -298,7 +295,7 @@ def _weigh(body: Body, balance: Balance) -> None:
     if body.inertia is not None and not linkage.static:
         inertia = work.quoted(Symbol("I", label), f"{body.inertia:.12g}", "kg m²")
         turning = balance.known[f"{body.name}.angular_acceleration"]
-        couple = balance.moment_line(Symbol("C", label), -(inertia * turning / _metre(balance)))
+        couple = balance.moment_line(Symbol("C", label), -(inertia * turning / work.metre))
         if couple.constant != 0:
             balance.turn(member, f"C_{{{label}}}", couple)
 
@@ -550,31 +547,25 @@ def forces(balance: Balance) -> tuple[Step, ...]:
     if not math.isfinite(balance.size):
         text = said("Forces grow without bound here: a lever vanishes under load. Take a pose beside it.")
         return (Step("", (text,)),)
-    known = _written(balance, lambda: _loads(balance))
-    solved = []
-    for joint in reversed(linkage.joints):
-        if not joint.fixed:
-            kind = _KINDS.get(type(joint), _point)
-            lines = _written(balance, lambda kind=kind, joint=joint: kind(joint, balance))  # type: ignore[misc]
-            solved.append(Step(joint_title(joint.name), lines))
+    step = balance.work.step
+    known = step(said("What is known"), partial(_loads, balance))
+    solved = [
+        step(joint_title(joint.name), partial(_KINDS.get(type(joint), _point), joint, balance))
+        for joint in reversed(linkage.joints)
+        if not joint.fixed
+    ]
     for pin in linkage.pins:
-        lines = _written(balance, lambda pin=pin: _pinned(pin.name, 0, balance))  # type: ignore[misc]
-        solved.append(Step(said("Ground at {pin}", pin=marked(pin.name)), lines))
+        title = said("Ground at {pin}", pin=marked(pin.name))
+        solved.append(step(title, partial(_pinned, pin.name, 0, balance)))
     equations = [(body, _equations(body, balance)) for member, body in balance.bodies.items() if member]
     steps = [Step("", (said(_SENSES),))]
-    steps += [Step(said("What is known"), known)] if known else []
+    steps += [known] if known.items else []
     steps += [
         Step(said("{body}, free", body=_words(body)), _freed(body, balances)) for body, balances in equations
     ]
     steps += _system([one for _, balances in equations for one in balances], balance)
     steps += [step for step in solved if step.items]
     return tuple(steps)
-
-
-def _written(balance: Balance, write: Callable[[], object]) -> tuple[Item, ...]:
-    balance.work.items.clear()
-    write()
-    return tuple(balance.work.items)
 
 
 def _words(body: FreeBody) -> str:

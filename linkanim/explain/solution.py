@@ -279,7 +279,7 @@ def _metre(rates: Rates) -> Formula:
                 metre=f"{metre:.12g}",
             )
         )
-    return number(f"{rates.work.linkage.metre:.12g}")
+    return work.metre
 
 
 def effort(rates: Rates, known: Mapping[str, Formula], motion: Any) -> Iterator[Outcome]:
@@ -679,10 +679,8 @@ class _Draft:
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
         """Add a step with the lines that `write` adds; no step where it adds none."""
-        self.work.items.clear()
-        write()
-        if self.work.items:
-            self.steps.append(Step(title, tuple(self.work.items)))
+        step = self.work.step(title, write)
+        self.steps += [step] if step.items else []
 
     def _chapter(self, title: str) -> list[Chapter]:
         """Return a chapter of the steps since the last one, if there are any."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cached_property
@@ -303,6 +303,14 @@ class Work:
     items: list[Item] = field(default_factory=list)
     told: set[str] = field(default_factory=set)
 
+    def step(self, title: str, write: Callable[[], object], *, with_given: bool = False) -> Step:
+        """Return the step of the lines that `write` adds; `with_given`, behind the numbers given for them."""
+        before = set(self.given)
+        self.items.clear()
+        write()
+        given = [item for symbol, item in self.given.items() if symbol not in before] if with_given else ()
+        return Step(title, (*given, *self.items))
+
     def say(self, text: str) -> None:
         """Add a sentence; its numbers have true minus signs."""
         self.items.append(signed(text))
@@ -405,6 +413,11 @@ class Work:
         while name in self.linkage.by_name:
             name = f"G{name}"
         return name
+
+    @property
+    def metre(self) -> Formula:
+        """One unit of length in metres."""
+        return number(f"{self.linkage.metre:.12g}")
 
     def frame(self, ends: tuple[str, str]) -> int:
         """Return the number of the rigid body that has both joints; 0 is the ground."""

@@ -83,11 +83,7 @@ class _Chapter:
 
     def _step(self, title: str, write: Callable[[], None]) -> None:
         """Add a step with the lines that `write` adds; numbers given for them stand first."""
-        self.work.items.clear()
-        known = set(self.work.given)
-        write()
-        given = [item for symbol, item in self.work.given.items() if symbol not in known]
-        self.steps.append(Step(title, (*given, *self.work.items)))
+        self.steps.append(self.work.step(title, write, with_given=True))
 
     def _length(self, letter: str, sub: str, formula: Formula) -> Formula:
         return self.work.let(Symbol(letter, sub), formula, LENGTH)

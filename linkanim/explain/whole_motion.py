@@ -126,14 +126,8 @@ class _WholeMotion:
         self.four_bar = four_bar_of(scene.mechanism) if turned else None
         self.cranked = turned
 
-    def _step(self, title: str, write: Callable[[], object]) -> Step | None:
-        """Return a step with the lines that `write` adds, after the numbers given for them; None if empty."""
-        work, before = self.work, set(self.work.given)
-        work.items.clear()
-        write()
-        given = [item for symbol, item in work.given.items() if symbol not in before]
-        items: tuple[Item, ...] = (*given, *work.items)
-        return Step(title, items) if items else None
+    def _step(self, title: str, write: Callable[[], object]) -> Step:
+        return self.work.step(title, write, with_given=True)
 
     # How far the input goes: whether the bars of each dyad reach over the whole motion.
 
@@ -143,18 +137,17 @@ class _WholeMotion:
             self._step(said("Closure at {joint}", joint=marked(one.name)), partial(self._of, one))
             for one in self.dyads
         ]
-        taken = [step for step in steps if step]
+        taken = [step for step in steps if step.items]
         yield from taken
         if taken or not self.info.full_turn:
-            self.work.items.clear()
-            goes = self.info.motion_said
-            self.work.say(
-                said("{found}.", found=goes) if taken else said("{found}, as is given.", found=goes)
-            )
-            if self.info.grashof:
-                known = {"sums": self.info.grashof, "class_name": self.info.class_said}
-                self.work.say(said("Grashof: {sums}; class: {class_name}.", **known))
-            yield Step("", tuple(self.work.items))
+            yield self.work.step("", partial(self._conclude, bool(taken)))
+
+    def _conclude(self, closes: bool) -> None:
+        goes = self.info.motion_said
+        self.work.say(said("{found}.", found=goes) if closes else said("{found}, as is given.", found=goes))
+        if self.info.grashof:
+            known = {"sums": self.info.grashof, "class_name": self.info.class_said}
+            self.work.say(said("Grashof: {sums}; class: {class_name}.", **known))
 
     def _of(self, joint: Joint) -> None:
         if self.four_bar is not None and joint.name == self.four_bar.joint:
@@ -362,7 +355,7 @@ class _WholeMotion:
             step = self._step(called(body, self.info.link_names), partial(self._of_rocker, body))
         else:
             return
-        if step:
+        if step.items:
             yield step
 
     def _of_slider(self, slider: Body) -> None:
