@@ -16,10 +16,10 @@ from hypothesis import settings
 from withstood import MARK, table
 
 from linkanim import scenes
-from linkanim.picture.command_icons import window_icon
 from linkanim.picture.text import Type
 from linkanim.scenes import Scene, files
 from linkanim.ui import screen
+from linkanim.ui.command_icons import window_icon
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")

@@ -27,7 +27,6 @@ from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import text
-from linkanim.ui.shown import overlay
 from linkanim.units import LENGTH_UNITS, metre
 
 SCENES = ("press", "excavator", "driven-piston", "scotch-yoke", "crank-rocker")
@@ -197,7 +196,7 @@ def _crank(state: State) -> tuple[float, Any]:
 
 
 def _panel(state: State) -> Panel:
-    panel = values_in(overlay(state))
+    panel = values_in(state)
     assert panel
     return panel
 

@@ -15,11 +15,11 @@ from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.pdf import pages, require_pdf
 from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
+from linkanim.picture.drawn import NOTHING_ADDED, Additions
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import driven_words
 from linkanim.picture.raster import Colour, offscreen
@@ -47,7 +47,8 @@ class Figured:
 
     Without a `phase` (rad) it is the pose that reads best. Values are for `speed` (rad/s), the scene's own
     where it is None, and the input's `acceleration`. Names stand as is best for this pose alone, or `as_seen`
-    in a window. The `overlay` is drawn on top. Bodies are flat, as in print, unless they are `lit`.
+    in a window. What is drawn `beside` the scene comes on top. Bodies are flat, as in
+    print, unless they are `lit`.
     """
 
     scene: Scene
@@ -58,7 +59,7 @@ class Figured:
     speed: float | None = None
     acceleration: float = 0.0
     as_seen: bool = False
-    overlay: Overlay = NOTHING_OVER
+    beside: Additions = NOTHING_ADDED
     lit: bool = False
 
     @cached_property
@@ -78,7 +79,7 @@ class Figured:
     def picture(self) -> Picture:
         """The picture whose pose it shows."""
         moment = None if self.as_seen else self.shown_phase
-        docked = Docked(head=self.overlay.construction > 0)
+        docked = Docked(head=self.beside.steps > 0)
         look = replace(self.look, material="lit" if self.lit else "flat")
         return Picture(self.scene, self.size, look, apart=True, moment=moment, docked=docked)
 
@@ -92,12 +93,12 @@ class Figured:
     def groups(self) -> Iterator[Group]:
         """Yield all that is drawn, back to front."""
         pose, faint = self._poses
-        return self.picture.groups(pose, self.overlay, faint=faint)
+        return self.picture.groups(pose, self.beside, faint=faint)
 
     def surface(self) -> pygame.Surface:
         """Return the figure drawn; without a background it is clear where nothing is drawn."""
         surface, (pose, faint) = offscreen(self.size, alpha=not self.look.background), self._poses
-        SurfacePrinter().paint(surface, self.picture, pose, self.overlay, faint=faint)
+        SurfacePrinter().paint(surface, self.picture, pose, self.beside, faint=faint)
         return surface
 
     def document(self) -> str:

@@ -12,6 +12,7 @@ From the ground up; a module imports from those before it only:
     purpose       sizes for a book's column, a page, a slide
     look          what is shown of a scene, and how users change it
     figure        what of a linkage is drawn
+    drawn         what is drawn beside a scene: by what is open, and at the mouse
     fittings      sliders and guides, springs, dampers, the ground
     bodies        bars, plates, pins, centres of mass, the causal chain
     gears         wheels, teeth, belts
@@ -36,13 +37,8 @@ From the ground up; a module imports from those before it only:
     board         what every panel is drawn on
     lists         lists of dimensions, of quantities, of commands
     game_panel    what a game shows
-    overlay       what lies over the picture, as data
-    hover         what is under the mouse, in its own words
-    tools         the bar of tools
-    command_icons  the icons of commands
-    command_bar   the bar of commands at the foot
-    panels        help, lists, chips, marks of state
-    slider        a small slider on the picture, and the dial of the pencil
+    hover         the arrows of the joint under the mouse, lights at an instant
+    slider        a small slider on the picture
     marks         the bar being edited, handles, a ram's lane
     photograph    a photograph behind a sheet
     sheet_rows    rows of words on the sheet
@@ -53,7 +49,6 @@ From the ground up; a module imports from those before it only:
     stills        the pose of a still
     frame_words   what a frame of a recording says, and where
     surface       the printer for surfaces
-    shelf         linkages as small live pictures
 """
 
 from __future__ import annotations

@@ -19,19 +19,22 @@ import pygame
 
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
+from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import mark_stamp, pin_stamp
+from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
 from linkanim.picture.items import SHEET, Caption, Group, Halo
 from linkanim.picture.layout import HEAD_STEP, Gauge, Layout, gauge, tool_cells
-from linkanim.picture.marks import label_beside, measure
+from linkanim.picture.marks import DimensionLine, label_beside, measure
 from linkanim.picture.motion_marks import turning_arrow
-from linkanim.picture.overlay import DimensionLine
 from linkanim.picture.photograph import Photograph
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, dashes, disc, glazed, hull, lined, segments, stroke, unit
+from linkanim.picture.slider import slider_rect
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
@@ -414,6 +417,32 @@ def pointer(place: Point, setting: DrawSetting) -> Group:
     arrow = setting.view.pixel(place) + 1.4 * setting.layout.unit * np.array(_ARROW, np.complex128)
     rim = Layer(setting.theme.background, stroke(arrow, 5 * setting.layout.unit, closed=True))
     return Group("hand", [rim, Layer(setting.theme.ink, [arrow])], over=True)
+
+
+@frozen
+class Head(Addition):
+    """A sentence at the picture's head, perhaps as a warning, and facts below it; perhaps beside a slider."""
+
+    sentence: str
+    facts: tuple[str, ...] = ()
+    is_warning: bool = False
+    has_slider: bool = False
+
+    @property
+    def is_head(self) -> bool:
+        """It stands in the place of the words about the scene."""
+        return True
+
+    @property
+    def of_window(self) -> bool:
+        """It has a place of its own, at the head."""
+        return True
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the words, which hide nothing that can be grasped."""
+        del pose
+        beside = slider_rect(setting.layout) if self.has_slider else None
+        yield worded(setting, self.sentence, self.facts, is_warning=self.is_warning, beside=beside)
 
 
 def worded(

@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
+from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group
-from linkanim.picture.overlay import HoverText
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc
 
@@ -27,13 +28,18 @@ def greatest(cycle: Motion, joint: str) -> Greatest:
     return speed, acceleration
 
 
-def hover_arrows(
-    setting: DrawSetting, pose: Pose, hover_text: HoverText, most: Greatest | None
-) -> Iterator[Group]:
-    """Yield the arrows of the joint under the mouse, to the scale of its own greatest values."""
-    shown = list(_arrows(setting, pose, hover_text.joint, most)) if most and hover_text.joint else []
-    foot = setting.view.pixel(pose.position[hover_text.joint]) if shown else 0j
-    yield Group("hover-arrows", [layer for arrow in shown for layer in arrow.layers(foot)], over=True)
+@frozen
+class HoverArrows(Addition):
+    """The arrows of the joint under the mouse, to the scale of its own greatest values."""
+
+    joint: str
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the two arrows."""
+        most = greatest(setting.figure.cycle, self.joint)
+        shown = list(_arrows(setting, pose, self.joint, most))
+        foot = setting.view.pixel(pose.position[self.joint])
+        yield Group("hover-arrows", [layer for arrow in shown for layer in arrow.layers(foot)], over=True)
 
 
 class _HoverArrow(NamedTuple):

@@ -11,14 +11,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.dimensions import dimension_line
+from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.game_panel import Mood, mood_colour
 from linkanim.picture.items import Caption, Group, Target
 from linkanim.picture.layout import Gauge
-from linkanim.picture.overlay import DimensionLine, ModeDrawing
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Stamp, box, disc, segments, stroke, unit
 from linkanim.picture.theme import ORANGE, Theme, mixed
@@ -28,6 +29,56 @@ from linkanim.picture.view import Rect
 
 _LIT = 0.45
 """The opacity of the light on the bar being edited."""
+
+
+class DimensionLine(NamedTuple):
+    """A length in words, from place to place in a frame: 1 is the vector from joint to joint, 1j its left.
+
+    In a frame that names one joint twice, 1 is the scene's unit to the right. A `chosen` line is lit.
+    """
+
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    words: str
+    chosen: bool = True
+
+    @property
+    def is_bar(self) -> bool:
+        """Whether it lies along a bar from joint to joint."""
+        return self.frame[0] != self.frame[1] and (self.begin, self.end) == (0, 1)
+
+
+@frozen
+class MeasuredLines(Addition):
+    """Lengths with their dimension lines."""
+
+    lines: tuple[DimensionLine, ...]
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the lines."""
+        for one in self.lines:
+            at, head = (setting.view.pixel(pose.position[name]) for name in one.frame)
+            span = head - at if one.frame[0] != one.frame[1] else complex(setting.view.scale)
+            begin, end = (at + place.conjugate() * span for place in (one.begin, one.end))
+            yield from measure(setting, begin, end, one)
+
+
+@frozen
+class Glow(Addition):
+    """The light round a joint that can be dragged."""
+
+    joint: str
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the light."""
+        middle = setting.view.pixel(pose.position[self.joint])
+        discs = ((middle + disc(reach * setting.gauge.bar), alpha) for reach, alpha in _GLOW)
+        yield Group("glow", [Layer(ORANGE, [one], alpha) for one, alpha in discs], over=True)
+
+
+_GLOW = ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4))
+"""How far the light of a joint reaches, in widths of a bar, and how strong it is."""
 
 
 def measure(setting: DrawSetting, begin: complex, end: complex, shown: DimensionLine) -> Iterator[Group]:
@@ -81,13 +132,6 @@ def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
     yield Layer(ORANGE, loops, _LIT)
 
 
-def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
-    """Yield the light round a joint that can be dragged."""
-    middle = setting.view.pixel(pose.position[joint])
-    for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
-        yield Layer(ORANGE, [middle + disc(reach * setting.gauge.bar)], alpha)
-
-
 class Spot(NamedTuple):
     """The place of an answer on the picture, in the unit shown, and its mark."""
 
@@ -96,15 +140,11 @@ class Spot(NamedTuple):
     mood: Mood = ""
 
 
-class Spots(NamedTuple):
+@frozen
+class Spots(Addition):
     """The places of a game's answers on the picture, in the answers' order."""
 
     spots: tuple[Spot, ...]
-
-    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
-        """Return nothing: all lies over the linkage."""
-        del setting, pose
-        yield from ()
 
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield their marks: a ring, and beside it, off joints and others, the key on a disc."""
@@ -132,11 +172,6 @@ class Spots(NamedTuple):
 def _around(middle: complex, far: float) -> Rect:
     """Return the square about a place."""
     return Rect(middle.real - far, middle.imag - far, 2 * far, 2 * far)
-
-
-def without_spots(drawn: Sequence[ModeDrawing]) -> tuple[ModeDrawing, ...]:
-    """Return drawings without the answers of a game, over which something else is open."""
-    return tuple(one for one in drawn if not isinstance(one, Spots))
 
 
 _RING = 1.6
@@ -180,7 +215,8 @@ _DEEPEST = 0.62
 """How far the paper extends ahead of the ram at the most, in heights of the stage."""
 
 
-class TraceBands(NamedTuple):
+@frozen
+class TraceBands(Addition):
     """Bands round traces: of each both edges from place to place (x + yi, in the scene's unit)."""
 
     edges: tuple[tuple[tuple[complex, complex], ...], ...]
@@ -198,13 +234,9 @@ class TraceBands(NamedTuple):
             layers.append(Layer(theme.traces[n % len(theme.traces)], [*loops], _BAND))
         yield Group("band", layers)
 
-    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
-        """Return nothing: all lies behind the linkage."""
-        del setting, pose
-        yield from ()
 
-
-class Lane(NamedTuple):
+@frozen
+class Lane(Addition):
     """Two lines across a ram's guide, from its `back` to its `forward` dead centre, in the unit shown.
 
     `middle` has pairs: how far ahead, as a share of the visible paper, and where between the dead centres (0
@@ -244,8 +276,3 @@ class Lane(NamedTuple):
         beyond = BEYOND * (forward - back)
         guide = segments(back - beyond, forward + beyond, gauge.line)
         yield Group("lane", [paper, Layer(theme.ground, guide), Layer(ink, lines)])
-
-    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
-        """Return nothing: all lies behind the linkage."""
-        del setting, pose
-        yield from ()

@@ -14,18 +14,13 @@ from linkanim.picture.centres import Centres
 from linkanim.picture.chart import ChartStrips, chart_strips, pen_for
 from linkanim.picture.composition import Composition, composed, subject_of
 from linkanim.picture.drawing import Drawing
+from linkanim.picture.drawn import NOTHING_ADDED, Addition, Additions
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import LISTED_STEP, Hud, Legend, caption_lines, legend_for, measured
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import CAPTION_STEP, NOTHING_DOCKED, Docked, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.names import Names
-from linkanim.picture.overlay import (
-    NOTHING_OVER,
-    Overlay,
-    SliderShown,
-    SwingShown,
-)
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import Part, Places, box
@@ -37,6 +32,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.words import said
 
 if TYPE_CHECKING:
+    from linkanim.build.draft import Photo
     from linkanim.picture.polygons import Polygon
     from linkanim.synthesis.constructions import Mark
     from linkanim.synthesis.curves import DrawnCurve
@@ -56,7 +52,8 @@ class Picture:
 
     With a `moment` it is a still: fitted to the pose at that phase, its names where they are best in it. With
     `apart` each joint has a group of its own. While a hand changes the scene, words and names stay where they
-    are for the scene `placed`. The attribute `scene` is in the look's unit. Raises BadInput where the look's
+    are for the scene `placed`. With `noted` the words say that a limit or a change point is near. The
+    attribute `scene` is in the look's unit. Raises BadInput where the look's
     chart is no quantity of the scene.
     """
 
@@ -74,8 +71,9 @@ class Picture:
         apart: bool = False,
         sheet: Box | None = None,
         also: tuple[complex, ...] = (),
+        noted: bool = False,
     ) -> None:
-        self._aside = aside
+        self._aside, self._noted = aside, noted
         self.sheet, self.held = sheet, placed is not None
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.goal or self.scene
@@ -104,7 +102,6 @@ class Picture:
         setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
         self.drawing = Drawing(setting, apart=apart, moment=moment)
         self._chart: ChartStrips | None = self._charted()
-        self._fastest: tuple[str, tuple[float, float]] | None = None
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
 
     def _composed(self, placed: Scene | None, docked: Docked, also: tuple[complex, ...]) -> Composition:
@@ -149,30 +146,32 @@ class Picture:
     def groups(
         self,
         pose: Pose,
-        overlay: Overlay = NOTHING_OVER,
+        beside: Additions = NOTHING_ADDED,
         *,
         faint: Sequence[Pose] = (),
     ) -> Iterator[Group]:
         """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
-        if overlay.alone:
-            yield self._paper(overlay) if overlay.alone == "sheet" else _NOTHING_STILL
-            yield from self._of_modes(pose, overlay)
-            yield from self._slider(overlay.slider)
+        drawn = beside.drawn
+        alone = next((one.alone for one in drawn if one.alone), "")
+        if alone:
+            yield self._paper(beside.photo) if alone == "sheet" else _NOTHING_STILL
+            yield from self._drawn(drawn, pose)
             return
-        if self.sheet and overlay.stroke is None:
-            yield self._paper(overlay)
-        yield from self._behind_at(pose.input_speed, overlay.stroke)
-        for mode in overlay.drawn:
-            yield from self._within(mode.behind(self.drawing.setting, pose))
+        stroke = next((one.stroke for one in drawn if one.stroke), None)
+        if self.sheet and stroke is None:
+            yield self._paper(beside.photo)
+        yield from self._behind_at(pose.input_speed, stroke)
+        for one in drawn:
+            yield from self._within(one.behind(self.drawing.setting, pose))
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
         if self._moves_behind:
             yield from self._standing
-        if overlay.swing:
-            yield from self._within(self.drawing.swinging(self._between(pose, overlay.swing)))
+        if beside.swing:
+            yield from self._within(self.drawing.swinging(self._between(pose, *beside.swing)))
             yield from self._framed()
-            yield from self._on_chart(pose, grasped=overlay.grip)
+            yield from self._on_chart(pose, grasped=beside.grip)
             yield from self._words(pose, noted=False)
             return
         heads = self.drawing.heads(pose) if self.names.labels else ()
@@ -182,45 +181,39 @@ class Picture:
         yield from self._within(self._named_groups(pose, named))
         yield from self._framed()
         for polygon in self._polygons:
-            stands = overlay.paused and self._moment is None
-            drawn = (polygon.standing(pose.phase) if stands else polygon).group(pose)
-            yield drawn.shifted(*self._aside) if any(self._aside) else drawn
-        yield from self._on_chart(pose, grasped=overlay.grip)
-        if not (overlay.construction or overlay.head):  # their words stand in this place
-            yield from self._words(pose, noted=overlay.noted)
-        yield from self._handled(pose, overlay)
+            stands = beside.stands and self._moment is None
+            shown = (polygon.standing(pose.phase) if stands else polygon).group(pose)
+            yield shown.shifted(*self._aside) if any(self._aside) else shown
+        yield from self._on_chart(pose, grasped=beside.grip)
+        # the words of a construction, or at the head, stand in the place of those about the scene
+        if not (beside.steps or any(one.is_head for one in drawn)):
+            yield from self._words(pose, noted=self._noted)
+        if beside.steps:
+            yield from self._constructed(beside.steps, pose, drawn)
+        yield from self._drawn(drawn, pose)
+        if beside.instant is not None:
+            yield from self._pointed(beside.instant, pose)
 
-    def _between(self, pose: Pose, swing: SwingShown) -> Places:
+    def _between(self, pose: Pose, left: Scene, share: float) -> Places:
         """Return where joints are between those of another closure and their own: dyads turn over."""
-        departed = in_unit(swing.left, self.look.unit).pose(pose.phase, 0)
+        departed = in_unit(left, self.look.unit).pose(pose.phase, 0)
         there, here = (self.drawing.places(one) for one in (departed, pose))
-        return {name: there[name] + swing.share * (place - there[name]) for name, place in here.items()}
+        return {name: there[name] + share * (place - there[name]) for name, place in here.items()}
 
-    def _of_modes(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
-        """Yield what modes draw, and the words at the head, which hide nothing that can be grasped."""
-        groups = [one for mode in overlay.drawn for one in mode.groups(self.drawing.setting, pose)]
-        yield from self._within(one for one in groups if not one.over)
-        if overlay.head:
-            from linkanim.picture.build_sheet import worded
-            from linkanim.picture.slider import slider_rect
+    def _drawn(self, drawn: Sequence[Addition], pose: Pose) -> Iterator[Group]:
+        """Yield what is drawn beside the scene, what lies over all else last."""
+        groups = list[Group]()
+        for one in drawn:
+            made = one.groups(self.drawing.setting, pose)
+            groups += made if one.of_window else self._within(made)
+        yield from sorted(groups, key=lambda one: one.over)
 
-            beside = slider_rect(self.layout) if overlay.slider else None
-            sentence, facts, warns = overlay.head
-            yield worded(self.drawing.setting, sentence, facts, is_warning=warns, beside=beside)
-        yield from self._within(one for one in groups if one.over)
-
-    def _slider(self, shown: SliderShown | None) -> Iterator[Group]:
-        if shown:
-            from linkanim.picture.slider import slider
-
-            yield from slider(self.drawing.setting, shown)
-
-    def _constructed(self, steps: int, pose: Pose, leading: SliderShown | None) -> Iterator[Group]:
-        """Yield the first steps of a construction, the words on the last of them, and a slider."""
+    def _constructed(self, steps: int, pose: Pose, drawn: Sequence[Addition]) -> Iterator[Group]:
+        """Yield the first steps of a construction, and the words on the last of them, off a slider."""
         from linkanim.picture.build_sheet import worded
         from linkanim.picture.constructed import shown_at
         from linkanim.picture.construction import construction_items
-        from linkanim.picture.slider import slider_rect
+        from linkanim.picture.slider import Slider, slider_rect
 
         shown = shown_at(self._goal, steps, pose.phase)
         pen = pen_for(self.layout, self.type, self.theme)
@@ -228,9 +221,8 @@ class Picture:
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
         facts = said("step {number} of {count}", number=len(shown.steps), count=shown.total)
         facts = facts if self._moment is not None else said("{step} · F7 goes on", step=facts)
-        beside = slider_rect(self.layout) if leading else None
+        beside = slider_rect(self.layout) if any(isinstance(one, Slider) for one in drawn) else None
         yield worded(self.drawing.setting, shown.steps[-1].words, [facts], beside=beside)
-        yield from self._slider(leading)
 
     def _labelled_once(self, mark: Mark, pose: Pose) -> Mark:
         """Return a mark of a point without its label where the joint there has the same letter already."""
@@ -284,12 +276,12 @@ class Picture:
         """Whether the linkage may run beyond its stage."""
         return self.look.framed or self.held or self.view != self.composition.view
 
-    def _paper(self, overlay: Overlay) -> Group:
+    def _paper(self, photo: Photo | None) -> Group:
         """Return the sheet: with its ground line where a linkage is built on it."""
         from linkanim.picture.build_sheet import paper, sheet
 
         if self.sheet:
-            return paper(self.drawing.setting, overlay.photo)
+            return paper(self.drawing.setting, photo)
         return sheet(self.view, self.layout, self.theme)
 
     def _behind_at(self, speed: float, curve: DrawnCurve | None) -> tuple[Group, ...]:
@@ -393,51 +385,17 @@ class Picture:
         for n, row in enumerate(rows):
             yield Caption(row, (legend.x, top + LISTED_STEP * size * n), size, self.theme.warning)
 
-    def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
-        """Yield the marks for the hand: on the chosen bar, and on the joint to be dragged."""
-        if overlay == NOTHING_OVER:
-            return
-        from linkanim.picture.marks import glow, measure
-
-        yield from self._of_modes(pose, overlay)
-        if overlay.construction:
-            yield from self._constructed(overlay.construction, pose, overlay.slider)
-        for shown in overlay.measured:
-            at, head = map(self.view.pixel, (pose.position[name] for name in shown.frame))
-            span = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
-            begin, end = (at + place.conjugate() * span for place in (shown.begin, shown.end))
-            yield from measure(self.drawing.setting, begin, end, shown)
-        if overlay.glow:  # the joint and the length that it changes do not overlap: they are filled together
-            light = list(glow(self.drawing.setting, pose, overlay.glow))
-            yield Group("glow", light, over=not overlay.measured)
-        yield from self._pointed(pose, overlay)
-
-    def _pointed(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
-        """Yield what the mouse points at: an instant on curves and chart, and a thing's card of words."""
-        if overlay.instant is None and overlay.hover_text is None:
-            return
+    def _pointed(self, instant: float, pose: Pose) -> Iterator[Group]:
+        """Yield where traced joints are at the instant that the mouse points at, and the chart's values."""
         from linkanim.picture import hover
 
-        if overlay.instant is not None:
-            there = self.scene.pose(overlay.instant, self._order, speed=pose.input_speed)
-            curves = self.scene.trace if self.look.trace or self.look.ink else ()
-            places = [self.view.pixel(there.position[joint]) for joint in curves]
-            lights = hover.instant(self.drawing.setting, places)
-            yield from self._within([Group("instant", list(lights), over=True)])
-            if self._chart:
-                yield grouped("instant-read", self._chart.cursor(there))
-        if overlay.hover_text:
-            yield from hover.hover_arrows(
-                self.drawing.setting, pose, overlay.hover_text, self._greatest(overlay.hover_text.joint)
-            )
-
-    def _greatest(self, joint: str) -> tuple[float, float] | None:
-        """Return the greatest speed and acceleration of a joint; cached for the last joint."""
-        from linkanim.picture.hover import greatest
-
-        if joint and (self._fastest is None or self._fastest[0] != joint):
-            self._fastest = joint, greatest(self.figure.cycle, joint)
-        return self._fastest[1] if joint and self._fastest else None
+        there = self.scene.pose(instant, self._order, speed=pose.input_speed)
+        curves = self.scene.trace if self.look.trace or self.look.ink else ()
+        places = [self.view.pixel(there.position[joint]) for joint in curves]
+        lights = hover.instant(self.drawing.setting, places)
+        yield from self._within([Group("instant", list(lights), over=True)])
+        if self._chart:
+            yield grouped("instant-read", self._chart.cursor(there))
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""

@@ -14,13 +14,16 @@ from linkanim.picture.chart import pen_for
 from linkanim.picture.construction import construction_items
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group, Halo, grouped
-from linkanim.picture.overlay import AXIS, NEAR
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import arrows, disc, segments, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.synthesis.burmester import Poses
 from linkanim.synthesis.constructions import Mark, pose_marks
 
+NEAR = 0.022
+"""How near to a thing counts as on it, as a share of the window's height."""
+AXIS = 3.4
+"""How long the x axis of a frame is, in lengths of `NEAR`."""
 _ACROSS = 0.55
 """How long a pose's y axis is drawn, in lengths of its x axis."""
 _CURVE, _HELD = 200, 90

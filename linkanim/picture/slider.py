@@ -1,20 +1,16 @@
-"""Sliders: a track with a knob and words at both ends.
-
-A slider stands at the upper right of the picture, its knob at a step; the dial stands above a row of answers.
-"""
+"""Sliders: a track with a knob and words at both ends, at the upper right of the picture."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-import pygame
-
-from linkanim.picture.board import Board
+from linkanim.frozen import frozen
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group, Target
 from linkanim.picture.layout import Layout
-from linkanim.picture.overlay import DialShown, SliderShown
-from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import box, disc, segments
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
@@ -31,32 +27,41 @@ def slider_rect(layout: Layout) -> Rect:
     return Rect(head.right - layout.margin - wide, head.y + 0.25 * small, wide, 4.0 * small)
 
 
-def share_along(rail: Rect, x: float) -> float:
-    """Return how far along a knob's rail a pixel's column is, 0 to 1."""
-    return min(max((x - rail.x) / max(rail.width, 1.0), 0.0), 1.0)
+@frozen
+class Slider(Addition):
+    """A slider: its subject, the meaning of its two ends, how many steps it has, and its present step."""
+
+    label: str
+    low: str
+    high: str
+    steps: int
+    at: int
+
+    @property
+    def of_window(self) -> bool:
+        """It has a place of its own, at the upper right."""
+        return True
+
+    def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
+        """Yield the slider, on a backing; the value of its target is its rail and its steps."""
+        del pose
+        layout, theme = setting.layout, setting.theme
+        rect, small, (left, wide) = slider_rect(layout), layout.small_size, _way(layout)
+        row, line = rect.y + 1.9 * small, max(1.6 * layout.unit, 1.0)
+        plate, share = rect.middle + box(rect.width, rect.height, 0.4 * small), self.at / self.steps
+        track = knob_on_track(complex(left, row), wide, share, 0.42 * small, line, theme, theme.background)
+        layers = [Layer(theme.background, [plate], _BACKING), *track]
+        middle, below = rect.x + rect.width / 2, row + 0.7 * small
+        captions = [
+            Caption(self.label, (middle, rect.y + 0.1 * small), small, theme.dim, "centre"),
+            Caption(self.low, (left - 0.4 * small, below), small, theme.ink),
+            Caption(self.high, (left + wide + 0.4 * small, below), small, theme.ink, "right"),
+        ]
+        target = Target("slider", rect, (Rect(left, row, wide, 0.0), self.steps))
+        yield Group("slider", layers, captions, over=True, targets=(target,))
 
 
-def slider(setting: DrawSetting, shown: SliderShown) -> Iterator[Group]:
-    """Yield a slider, on a backing."""
-    layout, theme = setting.layout, setting.theme
-    rect, small, (left, wide) = slider_rect(layout), layout.small_size, _way(layout)
-    row, line = rect.y + 1.9 * small, max(1.6 * layout.unit, 1.0)
-    plate = rect.middle + box(rect.width, rect.height, 0.4 * small)
-    track = _track(
-        complex(left, row), wide, shown.at / shown.steps, 0.42 * small, line, theme, theme.background
-    )
-    layers = [Layer(theme.background, [plate], _BACKING), *track]
-    middle, below = rect.x + rect.width / 2, row + 0.7 * small
-    captions = [
-        Caption(shown.label, (middle, rect.y + 0.1 * small), small, theme.dim, "centre"),
-        Caption(shown.low, (left - 0.4 * small, below), small, theme.ink),
-        Caption(shown.high, (left + wide + 0.4 * small, below), small, theme.ink, "right"),
-    ]
-    target = Target("slider", rect, Rect(left, row, wide, 0.0))
-    yield Group("slider", layers, captions, over=True, targets=(target,))
-
-
-def _track(
+def knob_on_track(
     left: complex, wide: float, share: float, radius: float, line: float, theme: Theme, filled: Colour
 ) -> list[Layer]:
     """Return a track from its left end on, and the knob at a share of it, filled with a colour."""
@@ -72,30 +77,3 @@ def _way(layout: Layout) -> tuple[float, float]:
     """Return where the knob's range begins, and its length, in pixels."""
     rect, edge = slider_rect(layout), 0.9 * layout.small_size
     return rect.x + edge, rect.width - 2 * edge
-
-
-_DIAL = 0.34
-"""The width of a dial's track, as a share of its room."""
-_BESIDE = 0.5
-"""How far beyond its track's ends a dial can still be grasped, in heights of its room."""
-
-
-def dial_track(room: Rect) -> Rect:
-    """Return where the track of a dial runs, in the middle of its room."""
-    wide = _DIAL * room.width
-    return Rect(room.x + (room.width - wide) / 2, room.y, wide, room.height)
-
-
-def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: DialShown) -> Target:
-    """Draw a dial in its room, its words beside the ends of the track; return where it can be grasped."""
-    rail, size, unit = dial_track(room), board.layout.small_size, board.layout.unit
-    row, line, radius = rail.y + rail.height / 2, max(1.6 * unit, 1.0), 0.5 * size
-    marks = [complex(rail.x + at * rail.width, row) + box(2 * line, 0.6 * size) for at in dial.marks]
-    filled = board.theme.velocity if dial.held else board.theme.background
-    knob_and_track = _track(complex(rail.x, row), rail.width, dial.value, radius, line, board.theme, filled)
-    paint(surface, [Layer(board.theme.rule, marks), *knob_and_track])
-    top, gap, dim = row - 0.65 * size, radius + 0.7 * size, board.theme.dim
-    board.write(surface, dial.low, (rail.x - gap, top), size=size, colour=dim, anchor="right")
-    board.write(surface, dial.high, (rail.right + gap, top), size=size, colour=dim)
-    reach = _BESIDE * room.height
-    return Target("dial", rail._replace(x=rail.x - reach, width=rail.width + 2 * reach), rail)

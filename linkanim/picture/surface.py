@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import groupby
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
 import pygame
 
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.program import keep_memory
-from linkanim.picture.board import Board
+from linkanim.picture.drawn import NOTHING_ADDED, Additions
 from linkanim.picture.items import SHEET, Caption, Group, Target, flat
-from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import (
     Cover,
@@ -26,9 +23,6 @@ from linkanim.picture.raster import (
     paints,
 )
 from linkanim.picture.text import Lettering, Type
-
-if TYPE_CHECKING:
-    from linkanim.picture.panels import Panels
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """The most memory for cached shapes: that of so many pictures, and so many bytes."""
@@ -49,35 +43,38 @@ class SurfacePrinter:
         self._still: tuple[tuple[Group, ...], pygame.Surface] | None = None
         self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
         self._labels = _Labels()
-        self._panels: Panels | None = None
         self.targets: tuple[Target, ...] = ()
         self._paper: tuple[Group, pygame.Surface] | None = None
 
     def print(
-        self, surface: pygame.Surface, picture: Picture, phase: float, speed: float, overlay: Overlay
-    ) -> Pose:
-        """Print a phase of a picture, with its other closure faintly behind it if shown; return its pose."""
+        self,
+        surface: pygame.Surface,
+        picture: Picture,
+        phase: float,
+        speed: float,
+        beside: Additions = NOTHING_ADDED,
+    ) -> None:
+        """Print a phase of a picture, with its other closure faintly behind it if shown."""
         pose, faint = picture.poses(phase, speed)
-        self.paint(surface, picture, pose, overlay, faint=faint)
-        return pose
+        self.paint(surface, picture, pose, beside, faint=faint)
 
     def paint(
         self,
         surface: pygame.Surface,
         picture: Picture,
         pose: Pose,
-        overlay: Overlay = NOTHING_OVER,
+        beside: Additions = NOTHING_ADDED,
         *,
         faint: Sequence[Pose] = (),
     ) -> None:
-        """Print a pose of a picture, and what lies over it; changes the surface only.
+        """Print a pose of a picture, and what is drawn beside its scene; changes the surface only.
 
         Picture and surface have the same top left corner where their sizes differ.
         """
         if picture is not self._picture:
             self._picture, self._still = picture, None
             self._covers.clear()
-        first, *others = _runs(picture.groups(pose, overlay, faint=faint))
+        first, *others = _runs(picture.groups(pose, beside, faint=faint))
         canvas = self._on_still(surface, picture, first)
         parted = [_parts(run) for run in others]
         fresh = [_shapes(groups) for parts in parted for key, groups in parts if key is None]
@@ -89,8 +86,6 @@ class SurfacePrinter:
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         self.targets = tuple(target for run in (first, *others) for group in run for target in group.targets)
-        if overlay != NOTHING_OVER:
-            self.targets += self._panels_of(picture).draw(canvas, overlay)
         if is_clear(canvas):
             ground_clear(canvas, picture.theme.background)
         if canvas is not surface:
@@ -152,15 +147,6 @@ class SurfacePrinter:
             else:
                 text, at, size, colour, anchor, strong, *_ = line
                 type_.draw(canvas, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
-
-    def _panels_of(self, picture: Picture) -> Panels:
-        from linkanim.picture.panels import Panels
-
-        before = self._panels.board if self._panels else Board(picture.layout, picture.type, picture.theme)
-        board = replace(before, layout=picture.layout, type=picture.type, theme=picture.theme)
-        if self._panels is None or before != board:
-            self._panels = Panels(board)
-        return self._panels
 
 
 class _Labels:

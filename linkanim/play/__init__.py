@@ -3,9 +3,10 @@
 The frame for games is in the player, which knows no game by name:
 
 - `player.state.Game` is the protocol: a frozen value that answers actions (`carried`), grows older by
-  frames (`aged`) and puts its own parts into the overlay (`shown`). It is given the whole state and returns a
-  state: scene, clock and look are the state's own; the game's fields are what it keeps itself (score, streak,
-  frames). `player.actions.with_scene` shows a scene, `leave` goes back to the state beneath.
+  frames (`aged`) and says what it draws in the picture (`drawn`) and in its `panel`. It is given the whole
+  state and returns a state: scene, clock and look are the state's own; the game's fields are what it keeps
+  itself (score, streak, frames). `player.actions.with_scene` shows a scene, `leave` goes back to the state
+  beneath.
 - While a game runs every action is handed to it, except those of `player.actions.BESIDE` (theme, help,
   zoom, full screen, recording). Keys give "option" (1–9, a click on an answer in the panel or a spot in the
   picture), "next" (Enter, Space, any other letter, a click elsewhere), "turn" (← →), "raise" (↑ ↓), "back"
@@ -20,7 +21,7 @@ describe
   words, which the tape keeps. The effect "score" passes on a result to be kept. Both effects are left out
   when a tape is played.
 - A game shows a `picture.game_panel.GamePanel` (heading, scores, lines, answers, bars, a verdict) in the
-  room of a list, and `Spot`s on the picture; a curve is the `stroke` of the overlay.
+  room of a list, and `Spot`s on the picture; a curve is a `Stroke` that it draws.
 
 From the ground up; a module imports from those before it only:
 

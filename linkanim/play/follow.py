@@ -22,15 +22,20 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.measures import output_slider
+from linkanim.picture.drawn import Addition
 from linkanim.picture.game_panel import Choice, GamePanel, ScoreBar
 from linkanim.picture.look import Look
 from linkanim.picture.marks import BEYOND, Lane
-from linkanim.picture.overlay import Overlay
 from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import Game, State, with_effect
+from linkanim.player.state import (
+    Game,
+    Over,
+    State,
+    with_effect,
+)
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
@@ -309,8 +314,15 @@ class FollowRun(Game):
         """Whether the run came to the end of the paper, before its time was up."""
         return self.paper >= 1_000 * LENGTH
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the paper ahead of the ram, and the score beside it."""
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the paper ahead of the ram."""
+        del over, recorded
+        return (self._lane(state),)
+
+    def panel(self, state: State) -> GamePanel:
+        """Return the score."""
         remaining = 1.0 - self.outside / _SLACK
         bars = (
             ScoreBar(said("between the lines"), f"{self.metres:.2f} m", self.passed / (1e3 * LENGTH)),
@@ -320,7 +332,7 @@ class FollowRun(Game):
         best = said("best {score}", score=f"{self.best / 1e3:.2f} m")
         runs, counts = self.stage in ("counts", "runs"), self.stage == "counts"
         left_to_count = -((self.counted - _COUNTED) // FRAMES_PER_SECOND)
-        panel = GamePanel(
+        return GamePanel(
             f"{left_to_count}" if counts else said_as("game", "Follow"),
             scores=(said(state.scene.title), *([best] if self.best > 0 else [])),
             lines=() if runs and not counts else (said("Keep the ram between the two lines."),),
@@ -333,7 +345,6 @@ class FollowRun(Game):
             large=counts,
             chosen=None if runs else self.level - 1,
         )
-        return replace(over, listed=panel, drawn=(self._lane(state),))
 
     @property
     def _verdict(self) -> str:

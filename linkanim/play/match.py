@@ -21,15 +21,20 @@ from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, control_in, refuse_controls
+from linkanim.picture.drawn import Addition, CurveBehind
 from linkanim.picture.game_panel import Choice, GamePanel, ScoreBar
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Box
 from linkanim.play.games import GameWords, begun
 from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
-from linkanim.player.state import Game, State, with_effect
+from linkanim.player.state import (
+    Game,
+    Over,
+    State,
+    with_effect,
+)
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
@@ -463,8 +468,21 @@ class MatchGame(Game):
         place = known.index(self.level) + further if self.level in known else 0
         return begun(state, "match", level=known[place % len(known)])
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the curve, the three bars, and their scores."""
+    @property
+    def draggable(self) -> tuple[str, ...]:
+        """The joints that can be dragged."""
+        return () if self.gave_up else self.free
+
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the curve."""
+        del state, over, recorded
+        return (CurveBehind(self.of_level.curve),)
+
+    def panel(self, state: State) -> GamePanel:
+        """Return the three bars, and their scores."""
+        del state
         level = self.of_level
         answer = level.earned(level.worth_of_answer)
         own = level.earned(self.worth)
@@ -479,7 +497,7 @@ class MatchGame(Game):
             Choice("2", said("Begin again")),
             Choice("3", said("The next level")),
         )
-        panel = GamePanel(
+        return GamePanel(
             said(level.title),
             scores=(
                 self._place,
@@ -493,8 +511,6 @@ class MatchGame(Game):
             choices=choices if level.answer else choices[1:],
             hint=said("drag joints (Shift: tenths)   Space runs   ← → turn   Ctrl+Z   ↑ ↓ level   Esc out"),
         )
-        handles = () if self.gave_up else self.free
-        return replace(over, listed=panel, stroke=level.curve, handles=handles)
 
     @property
     def _fixed(self) -> str:

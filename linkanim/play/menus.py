@@ -10,7 +10,6 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.picture.game_panel import Choice, GamePanel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.play.games import (
     ALL,
     LEVELS,
@@ -79,8 +78,8 @@ class Menu(OverWhatRuns):
         own = (name for name in (self.chapter, before) if name in names())
         return tuple(dict.fromkeys((ALL, *chapters(), *own)))
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the chapters."""
+    def panel(self, state: State) -> GamePanel:
+        """Return the chapters."""
         best = {name: said("best {score}", score=score) for name, score in self.best}
         choices = tuple(
             Choice(f"{n}", titled(chapter), below=best.get(f"{chapter.replace(' ', '_')}.{self.level}", ""))
@@ -89,14 +88,13 @@ class Menu(OverWhatRuns):
         level = Choice(
             f"{len(choices) + 1}", said("Level {number}", number=self.level), below=said(_ABOUT[self.level])
         )
-        panel = GamePanel(
+        return GamePanel(
             said_as("game", "Predict"),
             lines=(said("Ten questions, before it moves."),),
             choices=(*choices, level),
             hint=said("Enter begins   ↑ ↓ chapter   ← → level   Esc goes back"),
             chosen=self._rows(state).index(self.chapter),
         )
-        return replace(over, listed=panel)
 
 
 def is_round(name: str) -> bool:
@@ -151,15 +149,12 @@ class Lobby(OverWhatRuns):
         state = state.with_mode(replace(self, row=row))
         return begun(state, [*OFFERS][row]) if taken else state
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the games."""
+    def panel(self, state: State) -> GamePanel:
+        """Return the games."""
+        del state
         hint = said("Enter begins   ↑ ↓ choose   Esc goes back")
-        return replace(
-            over,
-            listed=GamePanel(
-                said_as("game", "Play"), choices=choices_of(OFFERS.values()), hint=hint, chosen=self.row
-            ),
-        )
+        choices = choices_of(OFFERS.values())
+        return GamePanel(said_as("game", "Play"), choices=choices, hint=hint, chosen=self.row)
 
 
 def read_lobby(words: GameWords) -> Lobby:
@@ -233,11 +228,11 @@ class Title(Game):
         further = replace(self, place=((self.place or 0) + 1) % len(state.shelf))
         return further.entered(state.with_mode(further))
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the name and the doors."""
+    def panel(self, state: State) -> GamePanel:
+        """Return the name and the doors."""
         (run, mechanism), *others = DOORS.values()
         mechanism = state.beneath.scene.title if state.beneath else mechanism
-        panel = GamePanel(
+        return GamePanel(
             _NAME,
             lines=(said(_TITLE_ABOUT),),
             choices=choices_of([(run, mechanism), *others]),
@@ -247,7 +242,6 @@ class Title(Game):
             large=True,
             chosen=self.door,
         )
-        return replace(over, listed=panel)
 
 
 def _through(state: State, door: int) -> State:

@@ -13,11 +13,10 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.picture.game_panel import Choice, GamePanel, Mood
 from linkanim.picture.look import Look
-from linkanim.picture.marks import Spot, Spots
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.marks import Spot
 from linkanim.play.games import ALL, LEVELS, GameWords, begun, members, titled
 from linkanim.play.kinds import of_level
-from linkanim.play.question import QuestionId, QuizQuestion
+from linkanim.play.question import QuestionId, QuizAnswer, QuizQuestion
 from linkanim.play.quiz import next_question, pose_words, question_of
 from linkanim.player.action import Action
 from linkanim.player.actions import with_scene
@@ -250,13 +249,26 @@ class Predict(Game):
             return replace(state, clock=clock.go(state.frame, goal, paused=True))
         return state
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the question, or with the verdict on its answer."""
-        if self.question is None:
-            return replace(over, listed=self._end_panel())
+    def _answers(self, question: QuizQuestion) -> list[tuple[int, tuple[QuizAnswer, Mood]]]:
+        """Return the answers with their numbers, and how each is shown."""
+        moods = (self._mood(n) for n in range(len(question.answers)))
+        return [*enumerate(zip(question.answers, moods, strict=True), 1)]
+
+    def spots(self, state: State) -> tuple[Spot, ...]:
+        """Return the answers that are places, as long as the linkage stands there."""
         question = self.question
-        moods = tuple(self._mood(n) for n in range(len(question.answers)))
-        answers = [*enumerate(zip(question.answers, moods, strict=True), 1)]
+        if question is None or not (self.chosen is None or state.phase == question.phase):
+            return ()
+        answers = self._answers(question)
+        return tuple(Spot(f"{n}", one.place, mood) for n, (one, mood) in answers if one.place)
+
+    def panel(self, state: State) -> GamePanel:
+        """Return the question, or the verdict on its answer."""
+        del state
+        if self.question is None:
+            return self._end_panel()
+        question = self.question
+        answers = self._answers(question)
         choices = tuple(
             Choice(
                 f"{n}",
@@ -275,11 +287,7 @@ class Predict(Game):
             choices=choices,
             hint=said("1–4 or a click answers   Esc leaves") if waits else said("Enter goes on   Esc leaves"),
         )
-        if not waits:
-            panel = self._verdict(panel, question)
-        still = waits or state.phase == question.phase
-        spots = tuple(Spot(f"{n}", one.place, mood) for n, (one, mood) in answers if one.place and still)
-        return replace(over, listed=panel, drawn=(Spots(spots),) if spots else ())
+        return panel if waits else self._verdict(panel, question)
 
     def _mood(self, n: int) -> Mood:
         assert self.question

@@ -14,10 +14,10 @@ from linkanim.mechanics.quantities import phrase
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
+from linkanim.picture.drawn import Additions
 from linkanim.picture.frame_words import lines_of
 from linkanim.picture.look import Look
 from linkanim.picture.marks import Spot, Spots
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.quantities import driven_words, speed_words
 from linkanim.picture.raster import Layer, offscreen, paint, png_bytes
 from linkanim.picture.shapes import stroke
@@ -179,7 +179,7 @@ def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Fi
         for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))
         if one.place and answer_text(question, n) != one.text
     )
-    return Figured(question.scene, size, look, question.phase, overlay=Overlay(drawn=(Spots(tuple(spots)),)))
+    return Figured(question.scene, size, look, question.phase, beside=Additions((Spots(tuple(spots)),)))
 
 
 def legend(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:

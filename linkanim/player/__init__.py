@@ -4,6 +4,7 @@ From the ground up; a module imports from those before it only:
 
     clock      phase as a closed form of the integer frame
     action     what can be asked of the player, as plain data
+    browsing   what is found by typed words; the shelf, and where each of its mechanisms stands
     keys       the one table of keys and gamepad buttons
     state      all that one frame of the window shows, and what a mode is
     helping    a mode that is seen through: the help

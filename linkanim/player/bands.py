@@ -14,13 +14,20 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
+from linkanim.picture.build_sheet import Head
+from linkanim.picture.drawn import Addition
 from linkanim.picture.marks import TraceBands
-from linkanim.picture.overlay import Head, Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, MOVING_BAR, BarEntry, KeyRow, ModeKeys, both
 from linkanim.player.making import Construction
-from linkanim.player.state import Mode, Rule, State, with_toast
+from linkanim.player.state import (
+    Mode,
+    Over,
+    Rule,
+    State,
+    with_toast,
+)
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 from linkanim.words import name_said, said, said_as
@@ -112,10 +119,13 @@ class ToleranceBand(Mode):
         del before
         return after if after.scene is self.scene else after.without(ToleranceBand)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the band, and the words on it."""
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the band, and the words on it."""
+        del over, recorded
         if state.scene is not self.scene:
-            return over
+            return ()
         tolerance, scene, by = _tolerance(self.scene), self.scene, _round(self.level)
         times, joints = by / tolerance.by, scene.linkage.by_name
         edges = tuple(_edges(scene, off, times) for off in tolerance.quantities if off.name in joints)
@@ -124,7 +134,7 @@ class ToleranceBand(Mode):
         facts = said_as("list of clauses", "; ").join([most, *others])
         length = f"{significant(by, 3)} {scene.length_unit}"
         sentence = said("each length ± {length}: {effect}", length=length, effect=first)
-        return replace(over, drawn=(*over.drawn, TraceBands(edges)), head=Head(sentence, (facts,)))
+        return TraceBands(edges), Head(sentence, (facts,))
 
 
 def _in_words(scene: Scene, off: Off, times: float) -> str:

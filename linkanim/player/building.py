@@ -19,15 +19,16 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, unnameable
 from linkanim.mechanics.linkage import Point
+from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import figure
 from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NEW, Overlay, ToolBar
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.text import subscripted_words
 from linkanim.picture.view import Box
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
+from linkanim.player.browsing import NEW
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import (
     HINT,
@@ -37,6 +38,7 @@ from linkanim.player.edits import (
     drop,
     exchanged,
     grab,
+    in_marks,
     measured,
     nudged,
     panel_of,
@@ -74,6 +76,7 @@ from linkanim.player.state import (
     Editing,
     Grip,
     Mode,
+    Over,
     Resolver,
     Rule,
     State,
@@ -1029,20 +1032,18 @@ class OpenSheet(Mode):
         """Let go of a gesture, typed text, a choice, or a tool; else leave the sheet."""
         return let_go(state) or leave_sheet(state)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the draft, or the linkage, words, tools, and what is under the hand."""
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the draft, or what the linkage does not show, words, and what is under the hand."""
         sheet, rests, is_listed = sheet_of(state), state.clock.paused, state.edits_dimensions
-        where = sheet, state.scene, state.phase, over.hover
-        drawing = SheetDrawing(*where, is_listed=is_listed, is_recorded=over.recorded, rests=rests)
-        tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
-        return replace(
-            over,
-            drawn=(drawing,),
-            alone="" if drawing.moves else "sheet",
-            photo=sheet.building.draft.photo,
-            tools=ToolBar(tool, over.hover.tool if over.hover else None, typed=is_listed),
-            paused=False,
-        )
+        where = sheet, state.scene, state.phase, over
+        return (SheetDrawing(*where, is_listed=is_listed, is_recorded=recorded, rests=rests),)
+
+    def tools(self, state: State) -> tuple[int, bool]:
+        """Return the tool in hand; beside the list digits are values."""
+        tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet_of(state).tool), 0)
+        return tool, state.edits_dimensions
 
     def menu(self, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Choose what a right click is on, and list its commands; else list all."""
@@ -1120,14 +1121,27 @@ class SheetNumbers(Dimensions):
         """Discard what is typed; else leave list and sheet, which are one mode."""
         return let_go(state) or leave_sheet(state)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the list of the linkage, or of the draft where nothing moves."""
+    def panel(self, state: State) -> Panel:
+        """Return the list of the linkage, or of the draft where nothing moves."""
         sheet = sheet_of(state)
         if sheet.building.made.listed is None:
-            return replace(over, listed=_panel_of_draft(sheet.building))
+            return _panel_of_draft(sheet.building)
         items = dimensions_of(in_unit(state.scene, state.look.unit))
-        lines = () if sheet.rowed else tuple(measured(state, items))
-        return replace(over, listed=panel_of(state, items, lit=_has_row(state, items)), measured=lines)
+        return panel_of(state, items, lit=_has_row(state, items))
+
+    def tools(self, state: State) -> tuple[int, bool]:
+        """Return the tool in hand on the sheet."""
+        return OpenSheet().tools(state)
+
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the chosen dimension's lines."""
+        del over, recorded
+        sheet = sheet_of(state)
+        if sheet.building.made.listed is None or sheet.rowed:
+            return ()
+        return in_marks(measured(state, dimensions_of(in_unit(state.scene, state.look.unit))))
 
     def menu(self, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Choose what a right click is on, and list its commands; else list all."""

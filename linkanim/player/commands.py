@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 from linkanim.frozen import frozen
 from linkanim.picture.game_panel import GamePanel
-from linkanim.picture.marks import Spots
-from linkanim.picture.overlay import NOTHING_OVER, Button, CommandBar, filtered
 from linkanim.player.action import Action
+from linkanim.player.browsing import filtered
 from linkanim.player.clock import FASTEST, SLOWEST
 from linkanim.player.keys import (
     BACK_BAR,
@@ -76,17 +75,39 @@ BUILD_ON_BAR = BarEntry("build", Action("build_on"), 12)
 _BARE = (HOME_BAR._replace(rank=0), *_SCENE)
 
 
-def bar(state: State, pointed: int | None = None) -> CommandBar | None:
-    """Return the bar while it shows: for three seconds after the mouse or a finger has moved."""
+class Button(NamedTuple):
+    """A command on the bar: its icon, its name and key, whether it is on, and why it cannot be done.
+
+    Where room is short, buttons of the highest `rank` are left out first. A button that `leads` begins a
+    group. With a `share` (0 to 1) it is a slider, three times as wide. With `on_chart` it stands at the
+    chart's head.
+    """
+
+    icon: str
+    name: str
+    key: str = ""
+    rank: int = 0
+    leads: bool = False
+    on: bool = False
+    lack: str = ""
+    share: float | None = None
+    on_chart: bool = False
+
+
+def bar(state: State) -> tuple[Button, ...]:
+    """Return the commands on the bar while it shows: for three seconds after the mouse or a finger moved."""
+    if not bar_eighths(state):
+        return ()
+    named = _names(state.keys)
+    return tuple(_button(state, handle, named[handle.action]) for handle in _entries(state))
+
+
+def bar_eighths(state: State) -> int:
+    """Return the opacity of the bar in eighths; 0 where it is not seen."""
     if state.last_mouse_move is None:
-        return None
+        return 0
     remaining = state.last_mouse_move + MOUSE_FRAMES - state.frame
-    eighths = min(8 * remaining // _FADING, 8)
-    if eighths <= 0:
-        return None
-    buttons = _buttons(state)
-    known = pointed is not None and pointed < len(buttons)  # else the number is of another mode's bar
-    return CommandBar(buttons, pointed if known else None, eighths)
+    return max(min(8 * remaining // _FADING, 8), 0)
 
 
 def pressed(state: State, number: int) -> tuple[Action, ...]:
@@ -116,11 +137,6 @@ def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
 def slides(state: State, number: int) -> bool:
     """Tell whether a button is a slider; False for a number that this mode's bar does not have."""
     return any(one.action == SPEED for one in _entries(state)[number : number + 1])
-
-
-def _buttons(state: State) -> tuple[Button, ...]:
-    named = _names(state.keys)
-    return tuple(_button(state, handle, named[handle.action]) for handle in _entries(state))
 
 
 def _button(state: State, handle: BarEntry, named: tuple[str, str]) -> Button:
@@ -240,12 +256,11 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
 
 def _of_game(state: State, game: Game, usual: Mapping[Action, ListRow]) -> Iterator[ListRow]:
     """Yield what can be done in a game now: its answers or doors by their words, then other keys of use."""
-    shown = game.shown(state, NOTHING_OVER)
-    choices = shown.listed.choices if isinstance(shown.listed, GamePanel) else ()
+    panel = game.panel(state)
+    choices = panel.choices if isinstance(panel, GamePanel) else ()
     for n, choice in enumerate(choices):
         yield ListRow(choice.text or said("answer {number}", number=n + 1), choice.key, Action("option", n))
-    spots = (spot for one in shown.drawn if isinstance(one, Spots) for spot in one.spots)
-    for n, spot in enumerate(spots):
+    for n, spot in enumerate(game.spots(state)):
         yield ListRow(said("the place {key} on the picture", key=spot.key), spot.key, Action("option", n))
     for action in (*dict.fromkeys(bind.action for bind in state.keys.binds), Action("back")):
         if action.name != "option" and game.carried(state, action) is not state:

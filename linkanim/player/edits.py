@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from typing import TYPE_CHECKING, ClassVar
@@ -13,8 +13,9 @@ from linkanim.build.tools import TOOLS
 from linkanim.errors import LinkanimError
 from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import Info
+from linkanim.picture.drawn import Addition
 from linkanim.picture.lists import EditRow, Panel
-from linkanim.picture.overlay import DimensionLine, Overlay, ToolBar
+from linkanim.picture.marks import DimensionLine, MeasuredLines
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
 from linkanim.picture.text import subscripted_words
 from linkanim.player import rules
@@ -29,6 +30,7 @@ from linkanim.player.state import (
     Grasp,
     Held,
     Mode,
+    Over,
     Resolver,
     Rule,
     Sketch,
@@ -640,6 +642,12 @@ def panel_of(state: State, items: tuple[Dimension, ...], *, lit: bool) -> Panel:
     )
 
 
+def in_marks(lines: Iterable[DimensionLine]) -> tuple[Addition, ...]:
+    """Return lines as a mark on the picture; nothing without lines."""
+    found = tuple(lines)
+    return (MeasuredLines(found),) if found else ()
+
+
 @frozen
 class Dimensions(Mode):
     """The open list of dimensions of the scene."""
@@ -681,12 +689,21 @@ class Dimensions(Mode):
             replace(state, editing=nothing_begun(state.editing)) if state.editing.begun else edit(state, None)
         )
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the list, tools, and the chosen dimension's lines."""
-        items = dimensions(in_unit(state.scene, state.look.unit))
-        tools = ToolBar(_MOVES, over.hover.tool if over.hover else None, typed=True)
-        lines = tuple(measured(state, items))
-        return replace(over, listed=panel_of(state, items, lit=True), tools=tools, measured=lines)
+    def panel(self, state: State) -> Panel:
+        """Return the list of dimensions."""
+        return panel_of(state, dimensions(in_unit(state.scene, state.look.unit)), lit=True)
+
+    def tools(self, state: State) -> tuple[int, bool]:
+        """Return the tool in hand, with which nothing is added."""
+        del state
+        return _MOVES, True
+
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the chosen dimension's lines."""
+        del over, recorded
+        return in_marks(measured(state, dimensions(in_unit(state.scene, state.look.unit))))
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Take a tool, or act on the list; None where the mouse acts as usual."""

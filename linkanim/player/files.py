@@ -17,9 +17,9 @@ from linkanim import atomic_files, intake
 from linkanim.atomic_files import Claim
 from linkanim.build.draft import UNTITLED, Draft
 from linkanim.errors import BadInput, WorkFailed
-from linkanim.picture.overlay import OwnFile
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import png_bytes
+from linkanim.player.browsing import OwnFile
 from linkanim.player.building import DRAFT, offered, stored_text
 from linkanim.player.state import BuildSheet, State
 from linkanim.scenes.editing import under_class
@@ -66,7 +66,7 @@ def screenshot(surface: pygame.Surface, name: str) -> Path:
 
 
 def vector(state: State, size: tuple[int, int]) -> Path:
-    """Write the picture as an SVG under a free name, without its overlay; errors as `_added`."""
+    """Write the picture as an SVG under a free name, without what is beside it; errors as `_added`."""
     from linkanim.paper.figure import Figured
 
     scene = state.displayed

@@ -12,10 +12,10 @@ from typing import ClassVar
 
 from linkanim.frozen import frozen
 from linkanim.picture.lists import Quantities
-from linkanim.picture.overlay import searched
 from linkanim.picture.quantities import driven_words, quantity
 from linkanim.player import rules
 from linkanim.player.action import Action
+from linkanim.player.browsing import searched
 from linkanim.player.commands import Entries, ListRow, menu_of, thing_said, things
 from linkanim.player.keys import KeyRow, ModeKeys, TypedKeys, both, enter, on
 from linkanim.player.listing import Listing
@@ -146,5 +146,6 @@ class Finder(Listing):
         "find": Rule(rules.nothing, _toggle, taped=False),
     }
 
-    def _rows(self, state: State) -> Quantities:
-        return replace(super()._rows(state), hint=_HINT)
+    def panel(self, state: State) -> Quantities:
+        """Return the list, with its own hint."""
+        return replace(super().panel(state), hint=_HINT)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal, NamedTuple, Protocol
 
-from linkanim.picture.overlay import OwnFile
 from linkanim.player.action import Action
+from linkanim.player.browsing import OwnFile
 from linkanim.player.sight import Sight
 from linkanim.player.state import State
 

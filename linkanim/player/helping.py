@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import ClassVar
 
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import Overlay
-from linkanim.player.keys import help_groups
 from linkanim.player.state import Mode, Rule, State
 
 
@@ -18,10 +15,6 @@ class Help(Mode):
 
     actions: ClassVar[Mapping[str, Rule]] = {}
     sees_through, is_help = True, True
-
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the keys and what they do."""
-        return replace(over, help=help_groups(state.keys))
 
 
 def toggle(state: State, _: None) -> State:

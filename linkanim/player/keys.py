@@ -13,7 +13,7 @@ from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Value
 from linkanim.words import to_say
 
-# The one key table: the window, the help overlay, `--help` and the manual all read it.
+# The one key table: the window, the help, `--help` and the manual all read it.
 #
 # Keys are named as pygame names its constants (`K_F12` is "f12"), a printable key by its character,
 # with "ctrl+" and "shift+" in front, so that nothing here needs pygame.
@@ -596,7 +596,7 @@ def _as_written(key: str) -> str:
 
 
 def help_groups(mode: ModeKeys) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
-    """Return (subject, its lines of keys and what they do) as the help overlay shows them."""
+    """Return (subject, its lines of keys and what they do) as the help shows them."""
     table = mode.table or KEYS
     return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
 

@@ -19,7 +19,6 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, meant
 from linkanim.picture.look import ConstructionKind, Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.quantities import chart_tokens
 from linkanim.player import rules, stored
 from linkanim.player.action import Action, Value
@@ -420,9 +419,7 @@ class CaptionLine(Mode):
     }
     meanings: ClassVar[Mapping[str, Resolver]] = {"lesson_on": _on}
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the line in which the caption is typed."""
+    def says(self, state: State) -> str:
+        """Return the line in which the caption is typed."""
         del state
-        return replace(
-            over, toast=said("Caption: {typed}_ · Enter keeps the step · Esc does not", typed=self.typed)
-        )
+        return said("Caption: {typed}_ · Enter keeps the step · Esc does not", typed=self.typed)

@@ -13,11 +13,10 @@ from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity
 from linkanim.picture.lists import Quantities
-from linkanim.picture.marks import without_spots
-from linkanim.picture.overlay import Overlay, filtered
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
+from linkanim.player.browsing import filtered
 from linkanim.player.commands import LISTED_BAR, Entries, menu_of
 from linkanim.player.keys import KeyRow, ModeKeys, TypedKeys, both, enter, on
 from linkanim.player.state import Mode, Resolver, Rule, State
@@ -200,12 +199,8 @@ class Listing(Mode):
         charts = "strip" if self.adds else "plot"
         return next((Action(charts, token) for token in self.matches(scene)[row : row + 1]), None)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the list, in the place of any other."""
-        tools, drawn = over.tools if state.building else None, without_spots(over.drawn)
-        return replace(over, listed=self._rows(state), tools=tools, drawn=drawn, handles=())
-
-    def _rows(self, state: State) -> Quantities:
+    def panel(self, state: State) -> Quantities:
+        """Return the list, which stands in the place of any other."""
         scene = state.displayed
         if others := self.others:
             return Quantities(others.rows, self.chosen, self.typed, _OTHERS_HINT, title=others.title)

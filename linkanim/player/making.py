@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import degrees
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -13,12 +13,14 @@ from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section
 from linkanim.mechanics.linkage import Linkage
+from linkanim.picture.build_sheet import Head
+from linkanim.picture.drawn import Addition
 from linkanim.picture.items import Group
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
 from linkanim.picture.look import ConstructionKind, Look
-from linkanim.picture.overlay import Head, Overlay, SliderShown
 from linkanim.picture.raster import Loop
 from linkanim.picture.shapes import disc, hull
+from linkanim.picture.slider import Slider
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.edits import drop, exchanged, followed
@@ -26,6 +28,7 @@ from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, BarEntry, KeyRow,
 from linkanim.player.state import (
     Held,
     Mode,
+    Over,
     Rule,
     State,
     cleared,
@@ -116,12 +119,16 @@ class Construction(Mode):
         """Return how many steps of a scene's construction it draws."""
         return self.steps if scene is self.scene else 0
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the steps, and a slider along the scene's family."""
-        return replace(over, construction=state.constructed, slider=_slider(state) or over.slider)
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return a slider along the scene's family."""
+        del over, recorded
+        slider = _slider(state)
+        return (slider,) if slider else ()
 
 
-def _slider(state: State) -> SliderShown | None:
+def _slider(state: State) -> Slider | None:
     """Return the slider for what is shown; None where it has none."""
     if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
         return None
@@ -133,7 +140,7 @@ def _slider(state: State) -> SliderShown | None:
     least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
     label = said("transmission {least}, best {best}", least=least, best=best)
     ends = said("short coupler"), said("long coupler")
-    return SliderShown(label, *ends, FAMILY, round(member.place * FAMILY))
+    return Slider(label, *ends, FAMILY, round(member.place * FAMILY))
 
 
 def construct(state: State, further: int) -> State:
@@ -271,7 +278,7 @@ def _loop(part: Section, key: str) -> Loop:
 
 
 @frozen
-class Layering(Mode):
+class Layering(Mode, Addition):
     """The layers of a scene: its parts once they are known, or a sentence on why it cannot be made.
 
     They are `lifted` by so many steps; `text` is the result of `linkanim make`, as a tape keeps it.
@@ -324,17 +331,20 @@ class Layering(Mode):
         """Return the state with the linkage again."""
         return closed(state)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the parts in layers, words about them, and a slider.
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the parts in layers, words about them, and a slider.
 
         In the frame in which another scene appears the layers are still those of the one before, and not
         shown.
         """
+        del over, recorded
         is_own = self.scene is state.scene
         parts, refused = (self.parts, self.refused) if is_own else (None, "")
         if parts is None:
             waits = said("{title}: looking for layers in which it can turn", title=said(state.scene.title))
-            return replace(over, head=Head(refused or waits, is_warning=bool(refused)))
+            return (Head(refused or waits, is_warning=bool(refused)),)
         times = said("in true size")
         if parts.ratio != 1:
             times = said("{number} times as large", number=significant(parts.ratio, 3))
@@ -343,19 +353,14 @@ class Layering(Mode):
             "{parts} parts, {pins} pins, {size}", parts=len(parts.plates), pins=len(parts.pins), size=times
         )
         facts = counted, said("Enter writes the parts")
-        slider = SliderShown(said("layers"), said("flat"), said("lifted"), LIFTED, self.lifted)
-        return replace(
-            over,
-            drawn=(self,),
-            alone="bare",
-            head=Head(said("{title}: {part}", title=said(self.scene.title), part=on), facts),
-            slider=slider,
-        )
+        sentence = said("{title}: {part}", title=said(self.scene.title), part=on)
+        slider = Slider(said("layers"), said("flat"), said("lifted"), LIFTED, self.lifted)
+        return Head(sentence, facts, has_slider=True), self, slider
 
-    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
-        """Yield nothing: the parts stand in the linkage's place."""
-        del setting, pose
-        yield from ()
+    @property
+    def alone(self) -> Literal["bare"]:
+        """The parts stand in the linkage's place."""
+        return "bare"
 
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield the parts in their layers."""

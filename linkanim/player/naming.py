@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import ClassVar
 
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.keys import BACK_BAR, BarEntry, KeyRow, ModeKeys, TypedKeys, enter, on
@@ -73,9 +72,9 @@ class Naming(Mode):
         """The name that Enter takes."""
         return self.typed or self.proposal
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the line in which the name is asked for."""
+    def says(self, state: State) -> str:
+        """Return the line in which the name is asked for."""
         del state
         asked = said("Save as {name}_.toml · Enter writes it · Esc does not", name=self.name)
         refused = said("{cause}: {effect}", cause=self.refusal, effect=asked)
-        return replace(over, toast=refused if self.refusal else asked)
+        return refused if self.refusal else asked

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 from math import atan2, degrees, dist, hypot, isnan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from linkanim.build.building import Building
 from linkanim.build.dimensions import PropertyRow, rows_of
@@ -15,9 +15,9 @@ from linkanim.build.gestures import under
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
-from linkanim.picture.overlay import Hover
+from linkanim.picture.drawn import Addition
 from linkanim.picture.text import subscripted_words
-from linkanim.player.state import BuildSheet, driven_bar
+from linkanim.player.state import BuildSheet, Over, driven_bar
 from linkanim.scenes.scene import Scene
 from linkanim.units import short, significant, typeset
 from linkanim.words import said
@@ -63,25 +63,25 @@ def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:
 
 
 @frozen
-class SheetDrawing:
+class SheetDrawing(Addition):
     """A sheet at a phase of the scene that is made of it, if there is one.
 
-    The mouse is over `hover`. With the list of dimensions open the sheet `is_listed`; in a recording, where
+    The mouse is `over` a place. With the list of dimensions open the sheet `is_listed`; in a recording, where
     there are no tools, the hand is shown. The linkage is at rest while it `rests`.
     """
 
     sheet: BuildSheet
     scene: Scene
     phase: float
-    hover: Hover | None
+    over: Over | None
     is_listed: bool
     is_recorded: bool
     rests: bool
 
-    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
-        """Return nothing: all lies over the linkage."""
-        del setting, pose
-        yield from ()
+    @property
+    def alone(self) -> Literal["", "sheet"]:
+        """Where nothing moves there is no linkage beside it."""
+        return "" if self.moves else "sheet"
 
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield the draft, or what the moving linkage does not show, what the hand does, and the words."""
@@ -268,13 +268,11 @@ class SheetDrawing:
     @cached_property
     def snap(self) -> Snap | None:
         """What the hand, or the mouse, is on."""
-        grip, hover, seen = self.sheet.grip, self.hover, self._seen
-        if grip:
-            at, reach = grip.at, grip.reach
-        elif hover and hover.tool is None:
-            at, reach = hover.place, hover.reach
-        else:
+        grip, seen = self.sheet.grip, self._seen
+        near = (grip.at, grip.reach) if grip else self.over
+        if near is None:
             return None
+        at, reach = near
         thing = under(seen, at[0], at[1], reach)
         if thing is None or self.sheet.tool == "photo" or (grip and self.sheet.tool == "move"):
             return None

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import degrees, hypot
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from linkanim.build.places import from_span
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
+from linkanim.picture.drawn import Addition
 from linkanim.picture.items import Group
-from linkanim.picture.overlay import AnswerRow, DialShown, Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.dial import dial as turn_dial
@@ -45,6 +45,9 @@ from linkanim.player.state import (
     NEAR_HAND,
     PIVOTS,
     REACH,
+    AnswerRow,
+    Dial,
+    Over,
     PathSketch,
     Rule,
     State,
@@ -319,7 +322,7 @@ _DRAGS: Mapping[str, Drag] = {"pen_down": "pen", "grasp_point": "lead", "grasp_p
 
 
 @frozen
-class Pencil(Sketching, PathSketch):
+class Pencil(Sketching, PathSketch, Addition):
     """The pencil, and what it has drawn."""
 
     keys = ModeKeys(
@@ -373,13 +376,28 @@ class Pencil(Sketching, PathSketch):
         """Put the pencil down, and go back to the scene from before."""
         return leave_sketch(state)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the stroke, its cognates, and the row of answers with their figures."""
+    @property
+    def sign(self) -> str | None:
+        """How far off the stroke the linkage's curve is, or that one is looked for."""
         searched = "searching" if self.curve and not self.pen else None
-        over = replace(over, drawn=(self,), off=searched if self.is_blank else _off(self))
-        if self.is_blank:
-            return replace(over, alone="sheet")
-        return replace(over, stroke=self.curve, row=self._row(state))
+        return searched if self.is_blank else _off(self)
+
+    @property
+    def alone(self) -> Literal["", "sheet"]:
+        """It stands on a sheet as long as no linkage follows the stroke."""
+        return "sheet" if self.is_blank else ""
+
+    @property
+    def stroke(self) -> DrawnCurve | None:
+        """The stroke that a linkage follows."""
+        return None if self.is_blank else self.curve
+
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the stroke and its cognates."""
+        del state, over, recorded
+        return (self,)
 
     def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield the cognates, faintly."""
@@ -405,14 +423,16 @@ class Pencil(Sketching, PathSketch):
         """The numbers of the cognates that are drawn, 0 and 1."""
         return tuple(n for n, one in enumerate(self.cognates) if one)
 
-    def _row(self, state: State) -> AnswerRow:
+    def answer_row(self, state: State) -> AnswerRow | None:
         """Return the row of answers; while something is dragged, with the pictures from before."""
+        if self.is_blank:
+            return None
         words = tuple("its own" if isinstance(one, Scene) else _figures(one) for one in self.answers)
         names = self.names if len(self.names) == len(words) else tuple("" for _ in words)
         dial = None
         if len(self.way) > 1:
             marks = tuple(n / (len(self.way) - 1) for n, one in enumerate(self.way) if one in self.answers)
-            dial = DialShown(place_of(self), "exact", "compact", marks, self.held == DIAL)
+            dial = Dial(place_of(self), "exact", "compact", marks, self.held == DIAL)
         chosen = self.chosen if self.dialled is None else -1
         return replace(row_of(state, self, words), names=names, chosen=chosen, dial=dial)
 
@@ -427,7 +447,7 @@ class Pencil(Sketching, PathSketch):
         if mouse.drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
             return None
         if gesture.kind == "move" and mouse.drag == "dial":
-            return (Action("dial", screen.share_along("dial", mouse.at[0])),)
+            return (Action("dial", screen.dialled(mouse.at[0])),)
         if gesture.kind == "move":
             return (Action("pen_to" if mouse.drag == "pen" else "lead", screen.world(*mouse.at)),)
         drag, mouse.drag = mouse.drag, None
@@ -444,7 +464,7 @@ class Pencil(Sketching, PathSketch):
         if place is not None:
             return Action("answer", place)
         if screen.target_at("dial", x, y):
-            return Action("dial", screen.share_along("dial", x))
+            return Action("dial", screen.dialled(x))
         pose = screen.state.displayed.pose(screen.state.phase, 0)
         pivots = [name for name in PIVOTS if name in pose.position] if self.follows else []
         for pivot in pivots:

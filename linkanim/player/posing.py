@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import atan2, cos, degrees, dist, hypot, pi, radians, remainder, sin, tau
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -14,9 +14,11 @@ from linkanim.build.places import as_point
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
+from linkanim.picture.build_sheet import Head
+from linkanim.picture.drawn import Addition
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import AXIS, AnswerRow, DialShown, Head, Overlay
+from linkanim.picture.poses import AXIS
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
 from linkanim.player.edits import Dimensions, drop
@@ -47,6 +49,9 @@ from linkanim.player.sketching import (
 from linkanim.player.state import (
     LARGEST_DIAL,
     PIVOTS,
+    AnswerRow,
+    Dial,
+    Over,
     PoseGrip,
     PoseSketch,
     Resolver,
@@ -474,7 +479,7 @@ def _enter(window: Outside, _: Value) -> Iterator[Action]:
 
 
 @frozen
-class Posing(Sketching, PoseSketch):
+class Posing(Sketching, PoseSketch, Addition):
     """The poses that are set down."""
 
     keys = ModeKeys(
@@ -549,16 +554,17 @@ class Posing(Sketching, PoseSketch):
         """Let go of what is held or chosen; else go back to the scene from before."""
         return let_go(state) or leave_sketch(state)
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the poses, words about them, and the row of answers."""
-        head = Head(*_said_of_poses(state, self), bool(self.refusal))
-        over = replace(over, drawn=(self,), head=head, alone="sheet" if self.is_blank else "")
-        return over if self.is_blank else replace(over, row=self._row(state))
+    @property
+    def alone(self) -> Literal["", "sheet"]:
+        """It stands on a sheet as long as there is no linkage."""
+        return "sheet" if self.is_blank else ""
 
-    def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
-        """Yield nothing: poses lie over the linkage."""
-        del setting, pose
-        yield from ()
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the poses, and words about them."""
+        del over, recorded
+        return Head(*_said_of_poses(state, self), bool(self.refusal)), self
 
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield the theory, the shown answer's coupler in each pose, what can be dragged, and the axes."""
@@ -580,12 +586,14 @@ class Posing(Sketching, PoseSketch):
                 corners = (answer.joints[name] - complex(first.x, first.y) for name in "ABP")
                 yield tuple(as_point(complex(one.x, one.y) + turn * corner) for corner in corners)
 
-    def _row(self, state: State) -> AnswerRow:
+    def answer_row(self, state: State) -> AnswerRow | None:
         """Return the row of answers below their dial, whose middle is marked."""
+        if self.is_blank:
+            return None
         words = tuple(_sized(one, self) for one in self.answers)
         poses = (self.earlier or self).poses if self.held else self.poses
         share = (self.dial + LARGEST_DIAL) / (2 * LARGEST_DIAL)
-        dial = DialShown(share, "compact", "steep angle", (0.5,))
+        dial = Dial(share, "compact", "steep angle", (0.5,))
         return replace(row_of(state, self, words), dial=dial, poses=poses)
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
@@ -597,7 +605,7 @@ class Posing(Sketching, PoseSketch):
                 return (Action("answer", place),)
             if screen.target_at("dial", *mouse.at):
                 mouse.drag = "dial"
-                return (Action("dial", screen.share_along("dial", mouse.at[0])),)
+                return (Action("dial", screen.dialled(mouse.at[0])),)
             on_it = under(self, screen.world(*mouse.at), screen.near) is not None
             mouse.drag = "hand" if on_it or has_room(self) else "pan"
             mouse.draws = mouse.drag == "hand" and not on_it
@@ -608,6 +616,6 @@ class Posing(Sketching, PoseSketch):
         if gesture.kind == "move" and drag == "hand":
             return (mouse.handed("hand_to", screen),)
         if gesture.kind == "move":
-            return (Action("dial", screen.share_along("dial", mouse.at[0])),)
+            return (Action("dial", screen.dialled(mouse.at[0])),)
         mouse.drag = None
         return (Action("hand_up"),) if drag == "hand" else ()

@@ -8,7 +8,6 @@ from typing import ClassVar
 
 from linkanim.errors import LinkanimError
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import Overlay, Shelf
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.edits import followed
@@ -103,8 +102,3 @@ class OpenClosures(OpenShelf):
             return with_toast(state.without(OpenClosures), str(error))
         entries = tuple(one.scene for one in choices)
         return state.with_mode(replace(self, entries=entries, closures=choices, is_ready=True))
-
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the pictures."""
-        shelf = Shelf(self, state.frame - self.since, state.look.theme, state.clock.paused)
-        return replace(over, shelf=shelf)

@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from linkanim.frozen import frozen
 from linkanim.picture.lists import EditRow, Panel
-from linkanim.picture.marks import without_spots
-from linkanim.picture.overlay import Overlay
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
 from linkanim.player.keys import (
@@ -293,19 +291,17 @@ class RecordDialog(Mode):
             return self.typed + proposed.replace("\\", "/").rpartition("/")[2]
         return self.typed or proposed
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the dialog, in the place of a game's panel."""
+    def panel(self, state: State) -> Panel:
+        """Return the dialog, which stands in the place of a game's panel."""
         shown = tuple(
             EditRow(label, value, n == self.row, draft=n == PLACE and self.typed != "")
             for n, (label, value, _) in enumerate(rows(state))
         )
         is_whole = self.place.startswith("~") or Path(self.place).is_absolute()
         facts = () if is_whole or not self.folder else (said("in {folder}", folder=self.folder),)
-        panel = Panel(
+        return Panel(
             shown, to_say("Record and save"), facts, error=self.refusal or None, hint=_HINT, counted=False
         )
-        tools, drawn = over.tools if state.building else None, without_spots(over.drawn)
-        return replace(over, listed=panel, tools=tools, drawn=drawn, handles=())
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""

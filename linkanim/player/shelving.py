@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from linkanim.frozen import frozen
-from linkanim.picture.overlay import Browsing, Overlay, OwnFile, Shelf
 from linkanim.player import rules
 from linkanim.player.action import Action, Value
+from linkanim.player.browsing import Browsing, Grid, OwnFile, grid
 from linkanim.player.keys import (
     BACK_BAR,
     HOME_BAR,
@@ -25,7 +25,6 @@ from linkanim.player.state import STILL, Mode, Resolver, Rule, State
 from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
-    from linkanim.picture.shelf import Grid
     from linkanim.player.hand import Gesture, Hand, Outside
     from linkanim.player.sight import Sight
 
@@ -89,8 +88,6 @@ def _files(state: State, lines: str) -> State:
 
 def _ahead(window: Outside) -> Grid | None:
     """Return the grid of the open shelf as it will be drawn; None where none is open."""
-    from linkanim.picture.shelf import grid
-
     shelf = window.state.of(OpenShelf)
     return grid(window.screen.size, shelf) if shelf else None
 
@@ -205,11 +202,6 @@ class OpenShelf(Browsing, Mode):
         """Return whether the shelf is filtered."""
         del state
         return bool(self.typed)
-
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the shelf."""
-        open_for, still = state.frame - self.since, state.clock.paused
-        return replace(over, shelf=Shelf(self, open_for, state.look.theme, still, state.edited))
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...]:
         """Choose the mechanism under the mouse; a click shows it, and a click elsewhere closes the shelf.

@@ -7,10 +7,11 @@ from math import ceil, log10
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step
 from linkanim.picture.items import Target
-from linkanim.picture.overlay import NEAR, Hover, Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.slider import share_along
-from linkanim.player.state import State
+from linkanim.picture.poses import NEAR
+from linkanim.picture.view import Rect
+from linkanim.player.browsing import Browsing
+from linkanim.player.state import Over, State
 from linkanim.scenes.editing import handles
 
 _PULLED = 6.0
@@ -20,13 +21,13 @@ _VISIBLE = 1.0
 
 
 class Sight:
-    """What was drawn last: the `state` with the overlay `over` in a picture, and what can be clicked."""
+    """What was drawn last: the `state` in a picture, and what can be clicked."""
 
     last: Picture
     """The picture that was painted last."""
 
     def __init__(self, state: State) -> None:
-        self.state, self.over = state, Overlay()
+        self.state = state
         self._targets: tuple[Target, ...] = ()
 
     @property
@@ -78,10 +79,19 @@ class Sight:
         row: int = round(share * (track.value - 1))
         return row
 
-    def share_along(self, kind: str, x: float) -> float:
-        """Return how far along the rail of the dial, or the slider, a pixel's column is, 0 to 1."""
-        one = next((one for one in self._targets if one.kind == kind), None)
-        return share_along(one.value, x) if one else 0.0
+    def dialled(self, x: float) -> float:
+        """Return how far along the rail of the dial a pixel's column is, 0 to 1."""
+        return next((_share(one.value, x) for one in self.targets("dial")), 0.0)
+
+    def slid(self, x: float) -> int:
+        """Return the step of the slider at a pixel's column."""
+        rail, steps = next((one.value for one in self.targets("slider")), (Rect(0, 0, 0, 0), 0))
+        return round(steps * _share(rail, x))
+
+    @property
+    def shelf(self) -> Browsing | None:
+        """The shelf, while it is open."""
+        return shelf_of(self.state)
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None off it."""
@@ -103,7 +113,7 @@ class Sight:
         While the list is open, such a joint has dimensions of its own; in a game it is one that the game
         allows; else it is any joint that moves.
         """
-        state, free = self.state, self.over.handles
+        state, free = self.state, self.state.top.draggable if self.state.top else ()
         scene = state.displayed
         leads = state.leads
         if not (state.edits_dimensions or free or leads):
@@ -135,9 +145,9 @@ class Sight:
         place = self._gridded(*place) if on_grid and part == 1.0 else place
         return (*place, self.near, part * self.sheet_step)
 
-    def hover(self, x: float, y: float) -> Hover:
-        """Return the tool or the place of the sheet under a pixel."""
-        return Hover(self.world(x, y), self.near, self.number_at("tool", x, y))
+    def on_sheet(self, x: float, y: float) -> Over | None:
+        """Return the place of the sheet under a pixel, and how near is on a thing; None on a tool."""
+        return None if self.target_at("tool", x, y) else (self.world(x, y), self.near)
 
     def aimed(self, cursor: Point | None, way: tuple[float, ...]) -> tuple[float, float]:
         """Return where the keys' cursor goes: to the next line of the grid, or one step on a fine way.
@@ -168,3 +178,13 @@ class Sight:
     def sheet_step(self) -> float:
         """The usual step of a drawing: the least power of ten of its unit that is visible."""
         return 10.0 ** ceil(log10(_VISIBLE / self.last.view.scale))
+
+
+def _share(rail: Rect, x: float) -> float:
+    """Return how far along a knob's rail a pixel's column is, 0 to 1."""
+    return min(max((x - rail.x) / max(rail.width, 1.0), 0.0), 1.0)
+
+
+def shelf_of(state: State) -> Browsing | None:
+    """Return the open shelf; None where none is open."""
+    return next((one for one in state.modes if isinstance(one, Browsing)), None)

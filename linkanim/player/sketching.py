@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from linkanim.picture.overlay import AnswerRow
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.edits import exchanged, followed
 from linkanim.player.state import (
     POSED,
+    AnswerRow,
     Mode,
     PathSketch,
     PoseSketch,
@@ -168,8 +168,7 @@ def row_of(state: State, sketch: Sketch, words: tuple[str, ...]) -> AnswerRow:
         sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
     )
     names, still = tuple("" for _ in entries), state.clock.paused or sketch.held is not None
-    theme = state.look.theme
-    return AnswerRow(entries, names, words, sketch.chosen, sketch.unit, state.frame, theme, still=still)
+    return AnswerRow(entries, names, words, sketch.chosen, sketch.unit, still)
 
 
 ACTIONS: Mapping[str, Rule] = {

@@ -29,8 +29,9 @@ from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
+from linkanim.picture.drawn import Addition
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.marks import Spot, Spots
 from linkanim.picture.view import Box, eased
 from linkanim.player.action import Action, Value
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
@@ -51,6 +52,8 @@ from linkanim.units import degrees
 from linkanim.words import said, spoken, to_say
 
 if TYPE_CHECKING:
+    from linkanim.picture.game_panel import GamePanel
+    from linkanim.picture.lists import ListPanel
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
     from linkanim.synthesis.guidance import PoseAnswer
@@ -419,6 +422,36 @@ class Rule(NamedTuple):
 
 Resolver = Callable[[Any, Value], Iterable[Action]]
 """What an action asks of a window with these contents, by its value."""
+Over = tuple[Point, float]
+"""The place of a sheet under the mouse, in its unit, and how near is on a thing."""
+
+
+class Dial(NamedTuple):
+    """Where a knob stands, from 0 at the left to 1, between two words; the track may have `marks`."""
+
+    value: float
+    low: str
+    high: str
+    marks: tuple[float, ...] = ()
+    held: bool = False
+
+
+@frozen
+class AnswerRow:
+    """Linkages for a path or for poses, as answers or scenes, words about each, and which one is shown.
+
+    Linkages for poses come with these `poses`. Lengths are in `unit`. The pictures
+    rest while `still`. A `dial` stands above.
+    """
+
+    entries: tuple[PathAnswer | PoseAnswer | Scene, ...]
+    names: tuple[str, ...]
+    words: tuple[str, ...]
+    chosen: int
+    unit: str
+    still: bool = False
+    dial: Dial | None = None
+    poses: tuple[tuple[float, float, float], ...] = ()
 
 
 class Mode:
@@ -497,10 +530,42 @@ class Mode:
         """Return the state after Esc or the back arrow: without the mode, unless it has to let go first."""
         return state.without(type(self))
 
-    def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the mode's own parts."""
+    @property
+    def draggable(self) -> tuple[str, ...]:
+        """The joints that can be dragged, where that is a matter of the mode."""
+        return ()
+
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return what it draws in the picture, where the mouse is `over` a place, or what is `recorded`."""
+        del state, over, recorded
+        return ()
+
+    def panel(self, state: State) -> ListPanel | GamePanel | None:
+        """Return the list that is open."""
         del state
-        return over
+        return None
+
+    def says(self, state: State) -> str | None:
+        """Return what is said at the foot as long as it is open."""
+        del state
+        return None
+
+    def answer_row(self, state: State) -> AnswerRow | None:
+        """Return the answers that stand in a row at the foot."""
+        del state
+        return None
+
+    def tools(self, state: State) -> tuple[int, bool] | None:
+        """Return the number of the tool in hand, and whether tools' keys need Ctrl; None without tools."""
+        del state
+        return None
+
+    @property
+    def sign(self) -> str | None:
+        """Words among the marks at the foot: how far off a curve is."""
+        return None
 
     def mouse(self, gesture: Any, mouse: Any, screen: Any) -> tuple[Action, ...] | None:
         """Return the actions of a gesture; None where the mouse acts as without the mode."""
@@ -832,6 +897,19 @@ class Game(Mode, ABC):
     def entered(self, state: State) -> State:
         """Return the state as the game begins, which is the state's game already."""
 
+    def spots(self, state: State) -> tuple[Spot, ...]:
+        """Return the answers that are places on the picture."""
+        del state
+        return ()
+
+    def drawn(
+        self, state: State, over: Over | None = None, *, recorded: bool = False
+    ) -> tuple[Addition, ...]:
+        """Return the places of its answers, unless something else is open over it."""
+        del over, recorded
+        spots = self.spots(state) if state.top is self else ()
+        return (Spots(spots),) if spots else ()
+
     @abstractmethod
     def carried(self, state: State, action: Action) -> State:
         """Return the state with an action carried out; unchanged where the game has no use for it."""
@@ -846,7 +924,7 @@ class Game(Mode, ABC):
             return None
         option = screen.option_at(*mouse.at)
         at_joint = screen.handle_at(*mouse.at, REACH * screen.size[1]) is not None
-        if option is None and (screen.over.handles or at_joint or mouse.is_at_pin(screen)):
+        if option is None and (self.draggable or at_joint or mouse.is_at_pin(screen)):
             return None
         return (Action("next") if option is None else Action("option", option),)
 

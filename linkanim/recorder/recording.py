@@ -18,9 +18,9 @@ from linkanim.atomic_files import checked_target
 from linkanim.bounds import MOST_FRAMES
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.frozen import frozen
+from linkanim.picture.drawn import Additions
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import ConstructionKind, Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
@@ -217,14 +217,13 @@ class SceneFrames:
         self.alpha = not look.background
         self.colours = theme_colours(look)
         self._plan = plan
-        self._over = Overlay(noted=noted)
-        self._picture, self._printer = Picture(scene, size, look), SurfacePrinter()
+        self._picture, self._printer = Picture(scene, size, look, noted=noted), SurfacePrinter()
         self._surface = offscreen(size, alpha=self.alpha)
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, which the next call overwrites."""
         phase, speed = self._plan.phase(frame), self._plan.speed
-        self._printer.print(self._surface, self._picture, phase, speed, self._over)
+        self._printer.print(self._surface, self._picture, phase, speed)
         return pixel_view(self._surface)
 
 
@@ -249,8 +248,8 @@ class ConstructionFrames(SceneFrames):
         """Return the bytes of a frame; the frames of one step are drawn once."""
         step, speed = self._plan.step(frame), self._plan.clip.speed
         if step != self._drawn:
-            over = Overlay(construction=self._before + step)
-            self._printer.print(self._surface, self._picture, self._plan.clip.start, speed, over)
+            beside = Additions(steps=self._before + step)
+            self._printer.print(self._surface, self._picture, self._plan.clip.start, speed, beside)
             self._drawn = step
         return pixel_view(self._surface)
 

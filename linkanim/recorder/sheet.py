@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NOTHING_OVER
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view, png_bytes
 from linkanim.picture.stills import still_phase
@@ -57,7 +56,7 @@ class SheetFrames:
         self._surface.fill(self._theme.rule)
         for number, ((scene, picture), phase) in enumerate(zip(self._tiles, phases, strict=True)):
             row, column = divmod(number, self._columns)
-            self._printer.print(self._tile, picture, phase, scene.linkage.drive.speed, NOTHING_OVER)
+            self._printer.print(self._tile, picture, phase, scene.linkage.drive.speed)
             left, top = _GAP + column * (TILE[0] + _GAP), _GAP + row * (TILE[1] + _GAP)
             self._surface.fill(self._theme.background, (left, top, *TILE))
             self._surface.blit(self._tile, (left, top + _HEAD))

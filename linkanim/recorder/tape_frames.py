@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from linkanim.picture.look import Look, Material, ThemeName
 from linkanim.picture.photograph import refuse_lacking
 from linkanim.picture.raster import offscreen, pixel_view
-from linkanim.picture.shelf import RowPrinter
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.play.games import game_of
 from linkanim.player import tape_file
@@ -27,8 +26,9 @@ from linkanim.recorder.recording import (
     theme_colours,
     write,
 )
-from linkanim.ui.pictures import Framing
-from linkanim.ui.shown import recorded
+from linkanim.ui.panels import Panels
+from linkanim.ui.pictures import Framing, recorded
+from linkanim.ui.shelf import RowPrinter, answers_of
 from linkanim.words import speaking
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class TapeFrames:
         self._fps, self._photo = fps, photo
         self._surface = offscreen(size, alpha=self.alpha)
         self._framing = Framing()
-        self._printer, self._row = SurfacePrinter(), RowPrinter(at_once=True)
+        self._printer, self._panels, self._row = SurfacePrinter(), Panels(), RowPrinter(at_once=True)
         self._ahead: Iterator[tuple[State, float]] = iter(())
         self._next = 0
 
@@ -64,11 +64,14 @@ class TapeFrames:
             return self._drawn(state, phase)
 
     def _drawn(self, state: State, phase: float) -> Frame:
-        picture, over = self._framing.at(state, self.size), recorded(state, photo=self._photo)
-        if over.photo:
-            refuse_lacking(over.photo.file)
-        self._printer.print(self._surface, picture, phase, state.clock.speed, over)
-        self._row.draw(self._surface, picture.layout, over.row)
+        picture, beside = self._framing.at(state, self.size), recorded(state, photo=self._photo)
+        if beside.photo:
+            refuse_lacking(beside.photo.file)
+        self._printer.print(self._surface, picture, phase, state.clock.speed, beside)
+        row, theme = answers_of(state), state.look.theme
+        self._row.draw(self._surface, picture.layout, row, state.frame, theme)
+        for one in self._panels.drawn(state, picture.layout, picture.theme, shown="tape")[0]:
+            self._surface.blit(one.surface, one.at)
         return pixel_view(self._surface)
 
     def _at(self, frame: int) -> tuple[State, float]:

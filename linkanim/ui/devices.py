@@ -20,9 +20,9 @@ from linkanim.player.action import Action
 from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.hand import Drag, Gesture
 from linkanim.player.keys import Bind, ModeKeys, Press, bind_of
-from linkanim.player.state import NEAR_HAND, REACH, STILL
+from linkanim.player.state import NEAR_HAND, REACH, STILL, State
 from linkanim.scenes.editing import phase_towards
-from linkanim.ui.pointing import Pointed, row_asks, speed_rows
+from linkanim.ui.pointing import NOWHERE, AtMouse, Pointed, led, row_asks, speed_rows
 from linkanim.ui.screen import Screen
 
 # The keyboard: key events become presses, and a held key an action that repeats.
@@ -309,7 +309,7 @@ class Mouse:
         if gesture.kind == "down" and screen.target_at("toast", *self.at):
             self.drag = "bar"
             return (Action("open_toast"),)
-        if screen.state.help and self.drag is None and not screen.over.shelf:
+        if screen.state.help and self.drag is None and not screen.shelf:
             return self._on_the_help(screen) if gesture.kind == "down" else ()
         if self.drag == "slider" or (gesture.kind == "down" and screen.target_at("slider", *self.at)):
             return self._on_the_slider(gesture, screen)
@@ -440,9 +440,26 @@ class Mouse:
         thing = screen.pointed(*self.at, NEAR_HAND * screen.size[1]) if self.drag is None else None
         return thing.thing.name if thing and thing.thing and thing.thing.kind == "row" else None
 
+    def over(self, screen: Screen, state: State) -> AtMouse:
+        """Return what the mouse is at, in the picture of the frame before, for the state to be shown."""
+        if not self._seen:
+            return AtMouse(pointed=led(state)) if state.grasp else NOWHERE
+        free = not (state.held or state.grasp)  # a held joint glows anyway
+        joint = self.hovered(screen) if free else None
+        has_tools = all(one.top and one.top.has_tools for one in (screen.state, state))
+        on_sheet = has_tools and self.drag in (None, "hand")
+        return AtMouse(
+            joint if joint in state.shown.linkage.by_name else None,  # else of the scene from before
+            self.pointed(screen),
+            screen.number_at("tool", *self.at) if on_sheet else None,
+            self.on_bar(screen),
+            screen.on_sheet(*self.at) if on_sheet else None,
+            self.over_scene(screen, state.frame) if free else led(state),
+        )
+
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list under the mouse; None before the mouse was seen."""
-        if not self._seen or self.drag not in (None, "row") or screen.over.shelf:
+        if not self._seen or self.drag not in (None, "row") or screen.shelf:
             return None
         number_at = screen.option_at if screen.state.mode == "game" else screen.row_at
         row = number_at(*self.at)
@@ -450,7 +467,7 @@ class Mouse:
 
     def hovered(self, screen: Screen) -> str | None:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
-        if not self._seen or screen.over.shelf or self.drag in ("pan", "chart", "row"):
+        if not self._seen or screen.shelf or self.drag in ("pan", "chart", "row"):
             return None
         on_a_list = self.drag is None and screen.row_at(*self.at) is not None
         if on_a_list or not (screen.state.leads or screen.state.mode in ("edit", "game")):
@@ -477,20 +494,13 @@ class Mouse:
         part = 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0
         return Action(name, screen.handed(*self.at, part, on_grid=on_grid))
 
-    def over_sheet(self, screen: Screen) -> tuple[float, float] | None:
-        """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
-        top = screen.state.top
-        shown = self._seen and top and top.has_tools and self.drag in (None, "hand")
-        return self.at if shown else None
-
     def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Drag the slider's knob, if the button went down on the slider."""
         self.drag = None if gesture.kind == "up" else "slider"
         if gesture.kind == "up":
             return (Action("drop"),)
-        steps = screen.over.slider.steps if screen.over.slider else 0
-        step = round(steps * screen.share_along("slider", self.at[0]))
-        return (Action("slide", step),) if gesture.kind in ("down", "move") else ()
+        slid = Action("slide", screen.slid(self.at[0]))
+        return (slid,) if gesture.kind in ("down", "move") else ()
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
         if self.is_at_pin(screen):

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import pygame
 
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.drawn import Addition, Additions
+from linkanim.picture.hover import HoverArrows
+from linkanim.picture.marks import Glow, MeasuredLines
 from linkanim.picture.picture import Picture
-from linkanim.picture.view import on_the_way, view_on_the_way
+from linkanim.picture.view import view_on_the_way
 from linkanim.player.framing import Framed, framed, moves_of
-from linkanim.player.state import State
-from linkanim.ui.shown import lasting
+from linkanim.player.state import SHUTTER_FRAMES, Changeover, State
+from linkanim.ui.pointing import NOWHERE, AtMouse
+
+if TYPE_CHECKING:
+    from linkanim.build.draft import Photo
+    from linkanim.scenes.scene import Scene
 
 _PICTURES = 4
 """The pictures that are kept: of a state, and of those that were left just before."""
@@ -31,7 +37,9 @@ class Framing:
         known = next((one for one in self._made if one[0] == (fit, size)), None)
         if known is None:
             scene, look, docked, placed, sheet, also, _ = fit
-            picture = Picture(scene, size, look, placed=placed, docked=docked, sheet=sheet, also=also)
+            picture = Picture(
+                scene, size, look, placed=placed, docked=docked, sheet=sheet, also=also, noted=True
+            )
             known = (fit, size), picture
         others = [one for one in self._made if one is not known]
         self._made = [*others[1 - _PICTURES :], known]
@@ -53,21 +61,74 @@ class Framing:
             return goal
         scene, look, docked, placed, sheet, also, _ = framed(state, window=self._window)
         return Picture(
-            scene, size, look, view=view, aside=aside, placed=placed, docked=docked, sheet=sheet, also=also
+            scene,
+            size,
+            look,
+            view=view,
+            aside=aside,
+            placed=placed,
+            docked=docked,
+            sheet=sheet,
+            also=also,
+            noted=True,
         )
 
 
-def drawn_in(over: Overlay, state: State) -> Overlay:
-    """Return the overlay to draw: a list that opens or shuts is in part beyond the window's edge."""
-    moves = moves_of(state)
-    if not moves:
-        return over
-    listed = [float(one.listed) for one in (*(move.left for move in moves), state)]
-    open_ = on_the_way(listed, [1.0 - one.share(state.frame) for one in moves])
-    if state.listed or not any(listed):
-        return replace(over, shut=1.0 - open_) if state.listed else over
-    last = lasting(next(one.left for one in reversed(moves) if one.left.listed))
-    return replace(over, listed=last.listed, shut=1.0 - open_)
+# What is drawn beside the scene of a state: by its modes, and where the mouse is.
+
+
+def beside(state: State, mouse: AtMouse = NOWHERE) -> Additions:
+    """Return what the window shows beside the scene."""
+    held = state.held or state.grasp
+    joints = state.displayed.linkage.by_name
+    lit = held.joint if held else mouse.joint
+    pointed = mouse.pointed
+    thing = pointed.thing.name if pointed and pointed.thing and pointed.thing.kind == "joint" else ""
+    marks: list[Addition] = [Glow(lit)] if lit in joints else []
+    marks += [HoverArrows(thing)] if thing in joints else []
+    return Additions(
+        (*_of_modes(state, mouse), *marks),
+        state.constructed,
+        swing(state),
+        pointed.instant if pointed else None,
+        grip=state.look.chart is not None and not state.game,
+        stands=stands(state) and not (state.game or state.building),
+        photo=_photo(state),
+    )
+
+
+def lasting(state: State) -> Additions:
+    """Return what belongs on a screenshot beside the scene: all that does not come and go."""
+    drawn = tuple(one for one in _of_modes(state) if not isinstance(one, MeasuredLines))
+    stood = stands(state) and not (state.game or state.building)
+    return Additions(drawn, state.constructed, stands=stood, photo=_photo(state))
+
+
+def recorded(state: State, *, photo: bool = False) -> Additions:
+    """Return what a recording shows beside the scene; a photograph behind a sheet only with `photo`."""
+    held = state.held or state.grasp
+    marks = (Glow(held.joint),) if held and held.joint in state.displayed.linkage.by_name else ()
+    drawn = (*_of_modes(state, recorded=True), *marks)
+    return Additions(drawn, state.constructed, swing(state), photo=_photo(state) if photo else None)
+
+
+def _of_modes(state: State, mouse: AtMouse = NOWHERE, *, recorded: bool = False) -> tuple[Addition, ...]:
+    return tuple(one for mode in state.modes for one in mode.drawn(state, mouse.over, recorded=recorded))
+
+
+def _photo(state: State) -> Photo | None:
+    return state.building.building.draft.photo if state.building else None
+
+
+def swing(state: State) -> tuple[Scene, float] | None:
+    """Return the closure that is left, and how far, while the linkage swings over."""
+    turned = state.glide if isinstance(state.glide, Changeover) else None
+    return (turned.left, turned.share(state.frame)) if turned else None
+
+
+def stands(state: State) -> bool:
+    """Return whether the motion is paused, and not merely dragged by a hand."""
+    return state.clock.paused and not (state.grasp and state.grasp.ran)
 
 
 # From one picture to the next: the old one fades while the new one is already there; the shutter's flash.
@@ -88,3 +149,8 @@ def flash(surface: pygame.Surface, eighths: int) -> None:
     white.fill((255, 255, 255))
     white.set_alpha(round(255 * _WHITE * (eighths / 8) ** 2))
     surface.blit(white, (0, 0))
+
+
+def shutter(state: State) -> int:
+    """Return how white the picture is for a screenshot's sake, in eighths."""
+    return 0 if state.shot is None else max(8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES, 0)

@@ -14,11 +14,10 @@ from linkanim.mechanics.linkage import Damper, Point, Spring
 from linkanim.mechanics.motion import Pose, Strut
 from linkanim.picture.figure import Figure
 from linkanim.picture.hud import charted, rows
-from linkanim.picture.overlay import HoverText
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.shapes import hull
 from linkanim.player.action import Action
-from linkanim.player.state import State
+from linkanim.player.state import Over, State
 from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits
 from linkanim.words import name_said, said, said_as
@@ -87,25 +86,52 @@ def _from_side(at: complex, begin: complex, end: complex) -> float:
     return abs(at - begin - min(max(share, 0.0), 1.0) * along)
 
 
-def hover_text(state: State, pointed: Pointed) -> HoverText | None:
-    """Return the lines about the thing under the mouse at this instant; None where there is none."""
+class AtMouse(NamedTuple):
+    """What the mouse is at: a `joint` that can be dragged; the numbers of a row, a tool, a button of the bar.
+
+    It may be `over` a place of a sheet, or at a thing that is `pointed` at.
+    """
+
+    joint: str | None = None
+    row: int | None = None
+    tool: int | None = None
+    button: int | None = None
+    over: Over | None = None
+    pointed: Pointed | None = None
+
+
+NOWHERE = AtMouse()
+
+
+def led(state: State) -> Pointed | None:
+    """Return the joint in the hand, whose card of words is shown."""
+    if state.grasp is None:
+        return None
+    places = state.displayed.pose(state.phase, 0).position
+    joint = state.grasp.joint
+    return Pointed(places[joint], PointedThing("joint", joint)) if joint in places else None
+
+
+def hover_words(state: State, pointed: Pointed | None) -> tuple[str, ...]:
+    """Return the lines about the thing under the mouse at this instant; empty where there is none."""
+    if pointed is None:
+        return ()
     scene, thing = state.displayed, pointed.thing
     if pointed.instant is not None:
-        return HoverText(_of_instant(state, scene, pointed.instant), pointed.place)
+        return _of_instant(state, scene, pointed.instant)
     if thing is None:
-        return None
+        return ()
     if thing.kind == "row":
-        lines = _of_row(state, scene, thing.name)
-        return HoverText(lines, pointed.place) if lines else None
+        return _of_row(state, scene, thing.name)
     pose = scene.pose(state.phase, speed=state.clock.speed)
     if thing.kind == "joint" and thing.name in pose.position:
-        return HoverText(_of_joint(scene, pose, thing.name), pointed.place, thing.name)
+        return _of_joint(scene, pose, thing.name)
     if thing.kind == "link" and thing.name in pose.angle:
-        return HoverText(_of_link(scene, pose, thing.name), pointed.place)
+        return _of_link(scene, pose, thing.name)
     struts = {**pose.spring, **pose.damper}
     if thing.kind == "strut" and thing.name in struts:
-        return HoverText(_of_strut(scene, struts[thing.name], thing.name), pointed.place)
-    return None
+        return _of_strut(scene, struts[thing.name], thing.name)
+    return ()
 
 
 def _of_instant(state: State, scene: Scene, phase: float) -> tuple[str, ...]:

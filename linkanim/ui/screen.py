@@ -10,7 +10,7 @@ import atexit
 import ctypes
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,20 +20,20 @@ import pygame
 from linkanim.build.draft import UNTITLED
 from linkanim.errors import NoDisplay
 from linkanim.picture.build_sheet import pencil
-from linkanim.picture.command_bar import BarPrinter, share_at
-from linkanim.picture.command_icons import window_icon
+from linkanim.picture.drawn import Additions
+from linkanim.picture.items import Target
 from linkanim.picture.layout import Docked, layout
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.shelf import RowPrinter, ShelfPrinter
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
-from linkanim.picture.tools import ToolPrinter
-from linkanim.player.sight import Sight
+from linkanim.player.sight import Sight, shelf_of
 from linkanim.player.state import State
-from linkanim.ui.pictures import Framing, drawn_in, fading, flash
-from linkanim.ui.pointing import Pointed, PointedThing, thing_at
-from linkanim.ui.shown import lasting
+from linkanim.ui.command_bar import share_at
+from linkanim.ui.command_icons import window_icon
+from linkanim.ui.panels import Panels, PanelSheet, Shown
+from linkanim.ui.pictures import Framing, beside, fading, flash, lasting, shutter
+from linkanim.ui.pointing import NOWHERE, AtMouse, Pointed, PointedThing, thing_at
+from linkanim.ui.shelf import RowPrinter, ShelfPrinter, answers_of
 from linkanim.words import said
 
 if TYPE_CHECKING:
@@ -253,19 +253,20 @@ class Screen(Sight):
 
     def __init__(self, state: State) -> None:
         super().__init__(state)
+        self.mouse = NOWHERE
         self._shown: object = None
         self._titled: str | None = None
         self._shelf = ShelfPrinter()
         self._printer = SurfacePrinter()
         self._framing = Framing(window=True)
         self._faded: tuple[State, pygame.Surface] | None = None
-        self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
+        self._row, self._panels = RowPrinter(), Panels()
         self._pointer: object = None
 
-    def show(self, state: State, over: Overlay) -> None:
+    def show(self, state: State, mouse: AtMouse = NOWHERE) -> None:
         """Paint the state into the window and flip, where it differs from what is shown."""
         surface = display_surface()
-        self.state, self.over = state, over
+        self.state, self.mouse = state, mouse
         self._point(state)
         on_sheet = state.building and state.building.building.made.scene is None
         title = said(UNTITLED if on_sheet else state.scene.title)
@@ -273,37 +274,65 @@ class Screen(Sight):
             title = said("{title} • edited", title=title)
         self._name(title)
         picture = self._framing.at(state, surface.get_size())
-        drawn, fades = drawn_in(over, state), fading(state)
-        shown = (picture, state.phase, state.clock.speed, drawn, fades)
+        aside, fades = beside(state, mouse), fading(state)
+        sheets, targets = self._over(picture, state, mouse)
+        live = state.frame if shelf_of(state) or answers_of(state) else None
+        shown = (picture, state.phase, state.clock.speed, aside, sheets, fades, shutter(state), live)
         if shown != self._shown:
             old = self._veil(*fades) if fades and fades[1] else None
             self.last = picture
-            self._paint(surface, picture, state, drawn)
+            self._targets = self._paint(surface, picture, state, aside, sheets) + tuple(targets)
             if old:
                 surface.blit(old, (0, 0))
-            if over.shutter:
-                flash(surface, over.shutter)
+            if shutter(state):
+                flash(surface, shutter(state))
             pygame.display.flip()
             self._shown = shown
+
+    def _over(
+        self, picture: Picture, state: State, mouse: AtMouse = NOWHERE, shown: Shown = "window"
+    ) -> tuple[list[PanelSheet], list[Target]]:
+        """Return the sheets over the picture or the shelf, and where they can be clicked."""
+        sheets, targets, place = list[PanelSheet](), list[Target](), picture.layout
+        if shelf_of(state):
+            place = layout(self.size, docked=Docked(bar=True))
+        else:
+            sheets, targets = self._panels.drawn(state, place, picture.theme, mouse, shown)
+        if shown == "window":
+            bar, buttons = self._panels.bar(state, place, mouse)
+            sheets, targets = sheets + bar, targets + buttons
+        return sheets, targets
+
+    def _paint(
+        self,
+        surface: pygame.Surface,
+        picture: Picture,
+        state: State,
+        drawn: Additions,
+        sheets: Sequence[PanelSheet],
+    ) -> tuple[Target, ...]:
+        """Paint a state's picture or shelf, and the sheets over it; return where the picture is clicked."""
+        shelf, theme = shelf_of(state), state.look.theme
+        if shelf:
+            still, edited = state.clock.paused, state.edited if shelf.has_new else frozenset[int]()
+            frame = state.frame - shelf.since
+            found = self._shelf.draw(surface, shelf, frame, theme, still=still, edited=edited)
+        else:
+            self._shelf.close()
+            self._printer.print(surface, picture, state.phase, state.clock.speed, drawn)
+            row = self._row.draw(surface, picture.layout, answers_of(state), state.frame, theme)
+            found = [*self._printer.targets, *row]
+        for one in sheets:
+            one.surface.set_alpha(round(255 * one.eighths / 8))
+            surface.blit(one.surface, one.at)
+        return tuple(found)
 
     def _veil(self, state: State, opacity: int) -> pygame.Surface:
         """Return the picture of a state that fades, at its opacity."""
         if self._faded is None or self._faded[0] is not state or self._faded[1].get_size() != self.size:
-            self._faded = state, self.picture(state, lasting(state))
+            self._faded = state, self.picture(state)
         self._faded[1].set_alpha(opacity)
         return self._faded[1]
-
-    def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
-        if over.shelf:
-            self._targets = tuple(self._shelf.draw(surface, over.shelf))
-        else:
-            self._shelf.close()
-            self._printer.print(surface, picture, state.phase, state.clock.speed, over)
-            row = self._row.draw(surface, picture.layout, over.row)
-            tools = self._tools.draw(surface, picture.layout, picture.theme, over.tools)
-            self._targets = *self._printer.targets, *row, *tools
-        place = layout(self.size, docked=Docked(bar=True)) if over.shelf else picture.layout
-        self._targets += tuple(self._bar.draw(surface, place, theme_of(state.look.theme), over.bar))
 
     def _point(self, state: State) -> None:
         """Show the mouse's pointer as a pencil while the pencil is taken."""
@@ -323,11 +352,12 @@ class Screen(Sight):
         """Record that the window has to be painted anew."""
         self._shown = None
 
-    def picture(self, state: State, over: Overlay) -> pygame.Surface:
-        """Return the state painted on a surface of its own, as large as the window."""
-        surface, shown = display_surface().copy(), self._targets
-        self._paint(surface, self._framing.at(state, surface.get_size()), state, over)
-        self._targets = shown
+    def picture(self, state: State) -> pygame.Surface:
+        """Return what does not come and go of a state on a surface of its own, as large as the window."""
+        surface = display_surface().copy()
+        picture = self._framing.at(state, surface.get_size())
+        sheets, _ = self._over(picture, state, shown="screenshot")
+        self._paint(surface, picture, state, lasting(state), sheets)
         return surface
 
     @property

@@ -20,11 +20,11 @@ from pygame.event import Event
 
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Hover, OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
 from linkanim.player import files, modes, record_dialog
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, end_of_frame, leave
+from linkanim.player.browsing import OwnFile
 from linkanim.player.building import leave_sheet, written
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import renewed
@@ -41,9 +41,8 @@ from linkanim.scenes.scene import Scene
 from linkanim.ui import screen
 from linkanim.ui.desktop import reduces_motion
 from linkanim.ui.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
-from linkanim.ui.pointing import Pointed, PointedThing
+from linkanim.ui.pointing import NOWHERE
 from linkanim.ui.screen import Screen
-from linkanim.ui.shown import lasting, overlay
 from linkanim.words import said, speaking, to_say
 
 if TYPE_CHECKING:
@@ -216,7 +215,7 @@ class Window:
         yield from meaning(self, action.value) if meaning else (action,)
 
     def _back(self, _: Value) -> Iterator[Action]:
-        """Yield what Esc does: it leaves an overlay, full screen, or a recording, in this order."""
+        """Yield what Esc does: it leaves what is open, full screen, or a recording, in this order."""
         if self.state.is_covered or not (screen.is_full() or self.state.recording):
             yield Action("back")
         elif not screen.is_full() and self.state.recording:
@@ -309,17 +308,9 @@ class Window:
 
     def _show(self) -> None:
         """Paint and flip; where a state cannot be painted, go back to the last that could."""
-        # a held joint glows anyway
-        free = self._good is not None and not (self.state.held or self.state.grasp)
-        hover = self._mouse.hovered(self.screen) if free else None
-        if hover not in self.state.shown.linkage.by_name:
-            hover = None  # the joint belongs to the scene from before
         try:
-            row, over = self._mouse.pointed(self.screen), self._over_sheet()
-            button = self._mouse.on_bar(self.screen)
-            pointed = self._mouse.over_scene(self.screen, self.state.frame) if free else self._led_joint()
-            over_ = overlay(self.state, hover, row, over, button, pointed)
-            self.screen.show(self.state, over_)
+            mouse = self._mouse.over(self.screen, self.state) if self._good else NOWHERE
+            self.screen.show(self.state, mouse)
         except Exception as error:
             if self._good is None:
                 raise
@@ -327,23 +318,8 @@ class Window:
                 self._report(report(self.state.shown, error, phase=self.state.phase))
             self._taping = None
             self.state = recovered(self.state, self._good, error)
-            self.screen.show(self.state, overlay(self.state))
+            self.screen.show(self.state)
         self._good = self.state
-
-    def _led_joint(self) -> Pointed | None:
-        """Return the joint in the hand, whose card of words is shown."""
-        grasp = self.state.grasp
-        if grasp is None or self._good is None:
-            return None
-        places = self.state.displayed.pose(self.state.phase, 0).position
-        led = grasp.joint in places
-        return Pointed(places[grasp.joint], PointedThing("joint", grasp.joint)) if led else None
-
-    def _over_sheet(self) -> Hover | None:
-        """Return what is under the mouse of an open sheet, or of the tools beside the list of dimensions."""
-        has_tools = all(one and one.top and one.top.has_tools for one in (self._good, self.state))
-        at = self._mouse.over_sheet(self.screen) if has_tools else None
-        return self.screen.hover(*at) if at else None
 
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, the news from outside, and how far recordings are."""
@@ -385,7 +361,7 @@ class Window:
             case "render":
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
-                picture = self.screen.picture(self.state, lasting(self.state))
+                picture = self.screen.picture(self.state)
                 self._notes.append(files.where(files.screenshot(picture, self.state.scene.name)))
             case "svg":
                 self._notes.append(files.where(files.vector(self.state, pygame.display.get_window_size())))

@@ -20,7 +20,6 @@ from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 from linkanim.ui import screen as display
 from linkanim.ui.screen import Screen
-from linkanim.ui.shown import overlay
 
 KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""
@@ -86,7 +85,7 @@ def _frame(screen: Screen, state: State, *actions: Action) -> tuple[State, float
     """Return the state after a frame with these actions, and the processor time of it all in ms."""
     start = time.process_time()
     state = advance(state, actions)
-    screen.show(state, overlay(state))
+    screen.show(state)
     return state, 1e3 * (time.process_time() - start)
 
 

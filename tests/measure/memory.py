@@ -37,7 +37,6 @@ from linkanim.picture.look import Look
 from linkanim.ui import screen as display
 from linkanim.player.actions import advance
 from linkanim.ui.screen import Screen
-from linkanim.ui.shown import overlay
 from linkanim.player.state import begin
 from linkanim.scenes import load
 
@@ -45,7 +44,7 @@ state = begin(load(sys.argv[1]), look=Look(names=2, vectors=frozenset("va")))
 with display.opened((1280, 720)):
     screen = Screen(state)
     for _ in range(60):
-        screen.show(state, overlay(state))
+        screen.show(state)
         state = advance(state)
 """
 """A second of a window with its names, dimensions and arrows."""

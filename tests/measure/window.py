@@ -26,7 +26,6 @@ from linkanim.player.state import begin
 from linkanim.scenes import load
 from linkanim.ui import screen as display
 from linkanim.ui.screen import Screen
-from linkanim.ui.shown import overlay
 
 SCENE = "press"
 LOOK = Look(vectors=frozenset("va"), chart="C.acceleration", names=2)
@@ -107,11 +106,11 @@ def measured(size: tuple[int, int], *, frames: int = FRAMES) -> FrameTimes:
     walls, used = [], []
     with display.opened(size):
         screen = Screen(state)
-        screen.show(state, overlay(state))
+        screen.show(state)
         for _ in range(frames):
             state = advance(state)
             start, before = time.perf_counter(), time.process_time()
-            screen.show(state, overlay(state))
+            screen.show(state)
             walls.append(1e3 * (time.perf_counter() - start))
             used.append(1e3 * (time.process_time() - before))
     walls.sort()

@@ -14,7 +14,6 @@ from fidelity import psnr
 
 from linkanim.paper.figure import Figured
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import quantity
 from linkanim.picture.raster import offscreen
@@ -66,7 +65,7 @@ def test_the_png_is_what_the_window_draws(name: str) -> None:
 def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
     scene, size, surface = load("press"), (960, 540), offscreen((960, 540))
     look = replace(look, chart="C.acceleration", vectors=frozenset("va"), material="flat")
-    SurfacePrinter().print(surface, Picture(scene, size, look), 1.0, 4.0, Overlay())
+    SurfacePrinter().print(surface, Picture(scene, size, look), 1.0, 4.0)
     figured = Figured(scene, size, look, phase=1.0, speed=4.0, as_seen=True)
     assert psnr(_levels(figured.surface()), _levels(surface)) > (30 if look.framed else 45)
     assert {"chart", "words", "key"} <= _groups(figured).keys()

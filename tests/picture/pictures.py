@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pygame
 from fidelity import Pixels
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.layout import NOTHING_DOCKED, Docked, Layout, layout, with_side
+from linkanim.picture.lists import ListPanel
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Colour, Layer, Shapes, covers, offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.view import Rect
+from linkanim.player.helping import Help
+from linkanim.player.keys import KeyRow, ModeKeys
+from linkanim.player.state import Mode, State, begin
 from linkanim.scenes.scene import Scene
+from linkanim.ui.panels import Panels
 
 BARE = Look(hud=False)
+FEW = ModeKeys("few", {"in a test": (KeyRow("Esc", "close"),)})
 SMALL = (320, 180)
 
 
@@ -29,6 +39,40 @@ def painted(
     SurfacePrinter().paint(
         surface, Picture(scene, size, look), scene.pose(phase), faint=(ghost,) if ghost else ()
     )
+    return surface
+
+
+@frozen
+class Shows(Mode):
+    """A mode that shows a list, and says something at the foot."""
+
+    listed: ListPanel | GamePanel | None = None
+    words: str = ""
+    keys = FEW
+
+    def panel(self, state: State) -> ListPanel | GamePanel | None:
+        del state
+        return self.listed
+
+    def says(self, state: State) -> str:
+        del state
+        return self.words
+
+
+def stated(
+    listed: ListPanel | GamePanel | None = None, words: str = "", *, helped: bool = False, **changes: Any
+) -> State:
+    """Return a state with a list, words at the foot, the help."""
+    modes = (Shows(listed, words), *((Help(),) if helped else ()))
+    return replace(begin("crank-rocker"), modes=modes, **changes)
+
+
+def with_panels(picture: Picture, phase: float, state: State | None = None) -> pygame.Surface:
+    """Return a pose of a picture on a new surface, with the panels of a state over it."""
+    surface = offscreen(picture.size)
+    SurfacePrinter().paint(surface, picture, picture.scene.pose(phase))
+    for one in Panels().drawn(state, picture.layout, picture.theme)[0] if state else ():
+        surface.blit(one.surface, one.at)
     return surface
 
 

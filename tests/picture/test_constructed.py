@@ -23,9 +23,9 @@ from linkanim.picture.constructed import (
     steps_before,
     steps_of,
 )
+from linkanim.picture.drawn import Additions
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.text import subscripted
 from linkanim.scenes import load
@@ -195,9 +195,7 @@ def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
         assert 0 < y < 360
     said = [
         line.text
-        for group in picture.groups(
-            scene.pose(phase, 2), Overlay(construction=steps_before(scene, "centres") + 3)
-        )
+        for group in picture.groups(scene.pose(phase, 2), Additions(steps=steps_before(scene, "centres") + 3))
         for line in group.captions
     ]
     assert "it lies on the line through P₁₄ and P₃₄, too: there it is" in " ".join(said)
@@ -209,7 +207,7 @@ def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
 def test_a_joint_has_its_letter_once_beside_a_construction(letters: int) -> None:
     scene = load("crank-rocker")
     picture = Picture(scene, (1280, 720), Look(names=letters))
-    over = Overlay(construction=len(steps_of(scene, "dead-centres")))
+    over = Additions(steps=len(steps_of(scene, "dead-centres")))
     said = [line.text for group in picture.groups(scene.pose(0.3, 2), over) for line in group.captions]
     for name in ("O₂", "O₄"):
         written = {name, subscripted(normalize("NFKC", name))}
@@ -221,7 +219,7 @@ def test_a_joint_has_its_letter_once_beside_a_construction(letters: int) -> None
 def test_words_on_a_construction_leave_the_linkage_where_they_can(size: tuple[int, int]) -> None:
     scene = load("crank-rocker")
     picture, pose = Picture(scene, size, Look()), scene.pose(math.radians(42.0), 2)
-    groups = picture.groups(pose, Overlay(construction=steps_before(scene, "centres") + 1))
+    groups = picture.groups(pose, Additions(steps=steps_before(scene, "centres") + 1))
     words = next(group for group in groups if group.name == "build-words")
     assert "".join(line.text for line in words.captions).count("P") == 4
     rects = [line.around(picture.type) for line in words.captions]

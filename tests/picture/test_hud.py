@@ -14,7 +14,6 @@ from linkanim.picture.hud import Hud, Legendary, Reading, columns, note, rows, w
 from linkanim.picture.items import Group
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import printed
@@ -76,8 +75,8 @@ def test_the_class_stands_right_below_the_title() -> None:
 @pytest.mark.parametrize("noted", [False, True])
 def test_what_is_special_is_said_where_it_is_asked_for(noted: bool) -> None:
     scene, surface = load("double-rocker"), offscreen((640, 360))
-    picture, pose = Picture(scene, (640, 360), Look()), scene.pose(0.0)
-    words = [line for group in picture.groups(pose, Overlay(noted=noted)) for line in group.captions]
+    picture, pose = Picture(scene, (640, 360), Look(), noted=noted), scene.pose(0.0)
+    words = [line for group in picture.groups(pose) for line in group.captions]
     assert any(line.text.startswith("near the limit") for line in words) is noted
     printed(surface, [Group("words", (), words)], picture.type)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import Gauge
 from linkanim.picture.theme import LIGHT
-from linkanim.picture.tools import ICONS
+from linkanim.ui.command_icons import COMMAND_ICONS
+from linkanim.ui.tools import ICONS
 
 
 def _reach(name: str, thin: float) -> float:

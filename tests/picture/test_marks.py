@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.picture.marks import label_beside, measure
-from linkanim.picture.overlay import DimensionLine
+from linkanim.picture.marks import DimensionLine, label_beside, measure
 from linkanim.picture.picture import Picture
 from linkanim.scenes import load
 

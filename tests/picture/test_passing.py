@@ -9,27 +9,25 @@ from itertools import pairwise
 import numpy as np
 import pygame
 import pytest
-from pictures import inked, pixels
+from pictures import inked, pixels, stated, with_panels
 
 from linkanim.picture.board import Board
+from linkanim.picture.drawn import Additions
 from linkanim.picture.layout import Docked, layout
 from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import (
-    Button,
-    CommandBar,
-    DimensionLine,
-    Fading,
-    Overlay,
-)
-from linkanim.picture.panels import foot, words_at_foot
+from linkanim.picture.marks import DimensionLine, MeasuredLines
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
+from linkanim.player.commands import bar
+from linkanim.player.state import RunningRecording, Toast, begin, with_toast
 from linkanim.scenes import load
+from linkanim.ui.panels import foot, hint, words_at_foot
+from linkanim.ui.pointing import AtMouse
 
 SIZE = (640, 360)
 
@@ -39,17 +37,13 @@ def painter() -> Picture:
     return Picture(load("crank-rocker"), SIZE, Look())
 
 
-def _painted(painter: Picture, overlay: Overlay) -> pygame.Surface:
-    surface = offscreen(SIZE)
-    SurfacePrinter().paint(surface, painter, painter.scene.pose(1.0), overlay)
-    return surface
-
-
 MEASURED = DimensionLine(("O2", "O4"), 0, 1, "100 mm")
 
 
 def test_the_bar_that_is_edited_is_lit_and_measured_beside_it(painter: Picture) -> None:
-    bare, lit = _painted(painter, Overlay()), _painted(painter, Overlay(measured=(MEASURED,)))
+    bare, lit = offscreen(SIZE), offscreen(SIZE)
+    for surface, drawn in ((bare, ()), (lit, (MeasuredLines((MEASURED,)),))):
+        SurfacePrinter().paint(surface, painter, painter.scene.pose(1.0), Additions(drawn))
     places = painter.drawing.places(painter.scene.pose(1.0))
     begin, end = places["O2"], places["O4"]
     bar, middle = painter.drawing.setting.gauge.bar, (begin + end) / 2
@@ -70,10 +64,10 @@ def _between(one: pygame.Surface, other: pygame.Surface) -> Rect:
 
 
 SAID = {
-    "a toast": Overlay(toast="recordings/crank-rocker-1.gif: 45 %"),
-    "an answer": Overlay(chip=Fading("names and dimensions")),
-    "a hint": Overlay(hint=Fading("Space pause · Tab next · drag the pin · H keys")),
-    "a mark": Overlay(recording="REC GIF 0:03"),
+    "a toast": stated(words="recordings/crank-rocker-1.gif: 45 %"),
+    "an answer": stated(chip=Toast("names and dimensions", 60)),
+    "a hint": replace(begin("crank-rocker"), frame=460),
+    "a mark": stated(recording=RunningRecording("gif", 0)),
 }
 
 
@@ -88,10 +82,7 @@ def test_what_is_said_in_passing_stands_in_the_caption_s_slot_alone(
     case: str, look: Look, size: tuple[int, int]
 ) -> None:
     shown = Picture(load("press"), size, look, docked=Docked(bar=True))
-    sheets = [offscreen(size), offscreen(size)]
-    for sheet, overlay in zip(sheets, (Overlay(), SAID[case]), strict=True):
-        SurfacePrinter().paint(sheet, shown, shown.scene.pose(1.0), overlay)
-    slot, place = shown.layout.caption, _between(*sheets)
+    slot, place = shown.layout.caption, _between(with_panels(shown, 1.0), with_panels(shown, 1.0, SAID[case]))
     assert slot
     assert slot.x <= place.x <= place.right <= slot.right
     assert slot.y - 1 <= place.y <= place.bottom <= slot.bottom + 1
@@ -100,29 +91,33 @@ def test_what_is_said_in_passing_stands_in_the_caption_s_slot_alone(
 
 def test_of_all_that_could_be_said_the_most_pressing_is(painter: Picture) -> None:
     board = Board(painter.layout, Type(), LIGHT)
-    bar = CommandBar((Button("play", "play", "Space"), Button("chart", "chart", "C", lack="no quantity")))
-    said = Overlay(hint=Fading("H keys · Tab next"))
-    assert words_at_foot(board, said) == ("H keys   ·   Tab next", False)
-    said = replace(said, watch=Fading("watch P"))
-    assert words_at_foot(board, said) == ("watch P", False)
-    said = replace(said, chip=Fading("25 rpm"))
-    assert words_at_foot(board, said) == ("25 rpm", True)
-    said = replace(said, toast="written")
-    assert words_at_foot(board, said) == ("written", True)
-    said = replace(said, bar=bar._replace(pointed=0))
-    assert words_at_foot(board, said) == ("play   Space", False)
-    assert words_at_foot(board, Overlay(bar=bar._replace(pointed=1))) == ("chart   C: no quantity", False)
-    assert words_at_foot(board, Overlay(chip=Fading("25 rpm", 0))) is None
+    state = replace(begin("crank-rocker"), frame=460)
+    hints, _ = words_at_foot(board, state) or ("", True)
+    assert hints.endswith("H keys")
+    state = replace(state, look=Look(names=1))
+    assert words_at_foot(board, state) == (state.scene.look_at, False)
+    state = replace(state, chip=Toast("25 rpm", 500))
+    assert words_at_foot(board, state) == ("25 rpm", True)
+    state = replace(with_toast(state, "`written`"), last_mouse_move=460)
+    assert words_at_foot(board, state) == ("written", True)
+    names = [words_at_foot(board, state, AtMouse(button=n)) for n in range(len(bar(state)))]
+    assert ("play / pause   Space", False) in names
+    lacking = next(n for n, one in enumerate(bar(state)) if one.lack)
+    words, is_answer = words_at_foot(board, state, AtMouse(button=lacking)) or ("", True)
+    assert words.endswith(f": {bar(state)[lacking].lack}")
+    assert not is_answer
+    assert words_at_foot(board, replace(begin("crank-rocker"), chip=Toast("25 rpm", 0))) is None
 
 
 def test_hints_that_have_no_room_in_a_line_lose_their_first_parts() -> None:
     board = Board(layout((320, 180), docked=Docked(bar=True)), Type(), LIGHT)
-    words = " · ".join(f"key {n} does something" for n in range(9))
-    told = words_at_foot(board, Overlay(hint=Fading(words)))
+    state = replace(begin("crank-rocker"), frame=460)
+    told, whole = words_at_foot(board, state), hint(state)
     assert told
-    assert words.endswith(told[0].replace("   ·   ", " · "))
-    assert "key 8" in told[0]
-    assert "key 0" not in told[0]
+    assert whole
+    assert whole.endswith(told[0].replace("   ·   ", " · "))
+    assert "H keys" in told[0]
+    assert "Space" not in told[0]
 
 
 @pytest.mark.parametrize("count", [1, 16, 40])
@@ -136,27 +131,22 @@ def test_words_at_the_foot_are_whole_and_in_the_window(count: int) -> None:
 
 
 def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
-    told = Overlay(help=(("look", (("H", "help"),)),))
     hud = painter.layout.hud
     assert hud
     title = hud._replace(height=24)
-    assert inked(_painted(painter, Overlay()), title, LIGHT.ink)
-    assert not inked(_painted(painter, told), title, LIGHT.ink)
+    assert inked(with_panels(painter, 1.0), title, LIGHT.ink)
+    assert not inked(with_panels(painter, 1.0, stated(helped=True)), title, LIGHT.ink)
 
 
 def test_help_stands_beside_the_values_that_it_explains() -> None:
-    scene, size = load("crank-rocker"), (1280, 720)
-    painter, surface = Picture(scene, size, Look(), docked=Docked(listed=1)), offscreen(size)
-    edited = Overlay(listed=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes"))
-    SurfacePrinter().paint(surface, painter, scene.pose(1.0), edited)
-    plain = pixels(surface)
-    lines = tuple((f"key {n}", "what it does, in a few words") for n in range(9))
-    helped = replace(edited, help=(("edit", lines),))
-    SurfacePrinter().paint(surface, painter, scene.pose(1.0), helped)
+    painter = Picture(load("crank-rocker"), (1280, 720), Look(), docked=Docked(listed=1))
+    values = Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes")
+    plain = pixels(with_panels(painter, 1.0, stated(values)))
+    helped = pixels(with_panels(painter, 1.0, stated(values, helped=True)))
     rows, columns = np.nonzero((plain == LIGHT.chosen).all(axis=-1))
     within = np.s_[rows.min() : rows.max(), columns.min() : columns.max()]
-    assert np.array_equal(pixels(surface)[within], plain[within])
-    assert not np.array_equal(pixels(surface)[:, 640:], plain[:, 640:])
+    assert np.array_equal(helped[within], plain[within])
+    assert not np.array_equal(helped[:, 640:], plain[:, 640:])
 
 
 def _list(rows: Sequence[EditRow], facts: tuple[str, ...] = ("Grashof",), hint: str = "Esc closes") -> Panel:

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 import pygame
 import pytest
-from pictures import BARE, pixels
+from pictures import BARE, pixels, stated, with_panels
 from stage import SIZES, STILLS, Fault, looks, of_moving, of_still, still_look
 
 from linkanim.picture import labelled
@@ -20,7 +20,6 @@ from linkanim.picture.frame_words import lines_of
 from linkanim.picture.layout import Docked
 from linkanim.picture.lists import EditRow, Panel
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -229,15 +228,13 @@ def test_a_linkage_that_is_zoomed_reaches_neither_into_charts_nor_under_words(na
 def test_a_list_covers_no_more_than_half_of_any_window_and_none_of_the_linkage(
     name: str, size: tuple[int, int]
 ) -> None:
-    picture, scene = Picture(load(name), size, Look(), docked=Docked(listed=1)), load(name)
+    picture = Picture(load(name), size, Look(), docked=Docked(listed=1))
     lists, parts = picture.layout.lists, picture.layout
     assert lists.width * lists.height <= 0.51 * size[0] * size[1]
     assert not lists.meets(parts.stage)
-    bare, told = offscreen(size), offscreen(size)
     rows = tuple(EditRow(f"Point {n} of its bar, to the left", "123.45 mm", n == 3) for n in range(30))
     hint = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
-    for surface, over in ((bare, Overlay()), (told, Overlay(listed=Panel(rows, hint=hint)))):
-        SurfacePrinter().paint(surface, picture, scene.pose(1.0), over)
+    bare, told = with_panels(picture, 1.0), with_panels(picture, 1.0, stated(Panel(rows, hint=hint)))
     assert _changed(bare, told)[1].max() <= lists.right + 1
     assert _changed(bare, told)[0].min() >= lists.y - 1
 

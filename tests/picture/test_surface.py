@@ -13,26 +13,30 @@ import numpy as np
 import pygame
 import pytest
 from fidelity import frame_decibels
-from pictures import BARE, SMALL, alphas, painted, pixels
+from pictures import BARE, SMALL, alphas, painted, pixels, stated, with_panels
 
 from linkanim.errors import BadInput
 from linkanim.picture.bodies import colours_of
+from linkanim.picture.drawn import Additions
 from linkanim.picture.figure import figure
 from linkanim.picture.game_panel import GamePanel
 from linkanim.picture.items import Caption, Group, Halo, Target
 from linkanim.picture.layout import Docked
 from linkanim.picture.lists import EditRow, Panel, Quantities
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.marks import Glow
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.shapes import hull
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Fonts
 from linkanim.picture.theme import theme_of
+from linkanim.player.clock import Clock
+from linkanim.player.state import RunningRecording, State
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import ghost_of, on_the_way
 from linkanim.scenes.scene import Scene
+from linkanim.ui.panels import Panels
 
 FULL = Look(vectors=frozenset("va"), chart="B.velocity")
 
@@ -60,7 +64,7 @@ def test_the_same_pose_gives_the_same_bytes_whatever_came_between(look: Look) ->
     printer.paint(surface, painter, scene.pose(1.0))
     first = _bytes(surface)
     for phase in (2.0, 3.5, 100.0):
-        printer.paint(surface, painter, scene.pose(phase), Overlay(paused=True, toast="between"))
+        printer.paint(surface, painter, scene.pose(phase), Additions((Glow("A"),), grip=True, stands=True))
         assert _bytes(surface) != first
     printer.paint(surface, painter, scene.pose(1.0))
     assert _bytes(surface) == first
@@ -112,25 +116,25 @@ def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str
 @pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark", chart=None)])
 @pytest.mark.parametrize("size", [(640, 360), (320, 180)])
 def test_a_painter_that_takes_over_paints_as_one_that_begins(look: Look, size: tuple[int, int]) -> None:
-    scene, overlay = load("press"), Overlay(help=(("look", (("H", "help"),)),), toast="told")
+    scene, beside = load("press"), Additions((Glow("A"),), grip=True)
     printer, pictures = SurfacePrinter(), []
-    printer.paint(offscreen((640, 360)), Picture(scene, (640, 360), FULL), scene.pose(0.5), overlay)
+    printer.paint(offscreen((640, 360)), Picture(scene, (640, 360), FULL), scene.pose(0.5), beside)
     for one in (SurfacePrinter(), printer):
         surface = offscreen(size)
-        one.paint(surface, Picture(scene, size, look), scene.pose(1.0), overlay)
+        one.paint(surface, Picture(scene, size, look), scene.pose(1.0), beside)
         pictures.append(_bytes(surface))
     assert pictures[0] == pictures[1]
 
 
 def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene, surface = load("press"), offscreen((640, 360))
-    SurfacePrinter().paint(surface, Picture(scene, (640, 360), FULL), scene.pose(0.5), Overlay(toast="told"))
+    scene = load("press")
+    with_panels(Picture(scene, (640, 360), FULL), 0.5, stated(words="told"))
 
     def refused(*_: object) -> None:
         raise AssertionError("a glyph is rendered again")
 
     monkeypatch.setattr(Fonts, "render", refused)
-    SurfacePrinter().paint(surface, Picture(scene, (640, 360), FULL), scene.pose(0.5), Overlay(toast="told"))
+    with_panels(Picture(scene, (640, 360), FULL), 0.5, stated(words="told"))
 
 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"pan": (0.1, 0.2), "zoom": 2.0}])
@@ -276,61 +280,47 @@ def test_a_scene_on_the_way_is_seen_in_the_view_of_the_one_it_becomes(crank: flo
     assert picture.figure.scene is shown
 
 
-@pytest.mark.parametrize(
-    "overlay",
-    [
-        Overlay(paused=True),
-        Overlay(recording="REC GIF 0:03"),
-        Overlay(toast="saved crank-rocker.gif"),
-        Overlay(help=(("play", (("Space", "play / pause"), ("← →", "step"))),)),
-        Overlay(listed=Quantities((("Rocker: angle", "θ₄ (°)"),), 0, "rock", "Enter charts")),
-        Overlay(listed=Quantities((), 0, "nothing")),
-        Overlay(listed=Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
-    ],
-)
-def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
-    scene = load("crank-rocker")
-    painter = Picture(scene, (640, 360), Look(), docked=Docked(bar=True))
-    surface, pose = offscreen((640, 360)), scene.pose(1.0)
-    SurfacePrinter().paint(surface, painter, pose)
-    plain = _bytes(surface)
-    SurfacePrinter().paint(surface, painter, pose, overlay)
-    assert _bytes(surface) != plain
-    SurfacePrinter().paint(surface, painter, pose)
-    assert _bytes(surface) == plain
+PANELS = {
+    "a pause": stated(clock=Clock(4.0, paused=True)),
+    "a recording": stated(recording=RunningRecording("gif", 0)),
+    "a message": stated(words="saved crank-rocker.gif"),
+    "the help": stated(helped=True),
+    "a list": stated(Quantities((("Rocker: angle", "θ₄ (°)"),), 0, "rock", "Enter charts")),
+    "an empty list": stated(Quantities((), 0, "nothing")),
+    "values": stated(Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
+}
+
+
+@pytest.mark.parametrize("state", PANELS.values(), ids=PANELS)
+def test_each_panel_shows(state: State) -> None:
+    painter = Picture(load("crank-rocker"), (640, 360), Look(), docked=Docked(bar=True))
+    assert _bytes(with_panels(painter, 1.0, state)) != _bytes(with_panels(painter, 1.0))
 
 
 def test_a_panel_that_is_kept_follows_what_it_says() -> None:
-    scene = load("crank-rocker")
-    painter = Picture(scene, (640, 360), Look(), docked=Docked(bar=True))
-    surface, pose = offscreen((640, 360)), scene.pose(1.0)
-    pictures = []
-    for toast in ("one", "another", "one"):
-        SurfacePrinter().paint(surface, painter, pose, Overlay(toast=toast))
-        pictures.append(_bytes(surface))
-    assert pictures[0] != pictures[1]
-    assert pictures[0] == pictures[2]
+    picture, panels = Picture(load("crank-rocker"), (640, 360), Look(), docked=Docked(bar=True)), Panels()
+    said = []
+    for words in ("one", "another", "one"):
+        sheets, _ = panels.drawn(stated(words=words), picture.layout, picture.theme)
+        said.append([(_bytes(one.surface), one.at) for one in sheets])
+    assert said[0] != said[1]
+    assert said[0] == said[2]
 
 
 @pytest.mark.parametrize("size", [(320, 180), (640, 360), (1920, 1080), (500, 700)])
 def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     scene = load("crank-rocker")
-    surface = offscreen(size)
-    rows = tuple((f"key {n}", "what it does, in a few words") for n in range(24))
-    overlay = Overlay(help=(("one", rows[:9]), ("two", rows[9:])))
-    SurfacePrinter().paint(surface, Picture(scene, size, Look(chart="B.velocity")), scene.pose(1.0), overlay)
+    surface = with_panels(Picture(scene, size, Look(chart="B.velocity")), 1.0, stated(helped=True))
     background = (*theme_of("light").background, 255)
     assert all(tuple(surface.get_at((x, size[1] // 2))) == background for x in (0, size[0] - 1))
     assert all(tuple(surface.get_at((size[0] // 2, y))) == background for y in (0, size[1] - 1))
 
 
 def test_the_help_veils_a_game_s_panel() -> None:
-    scene, size = load("crank-rocker"), (640, 360)
-    panels = []
-    for shown in (None, (("play", (("Esc", "out of it"),)),)):
-        surface = offscreen(size)
-        overlay = Overlay(listed=GamePanel("Heading", lines=("A question?",)), help=shown)
-        SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(1.0), overlay)
+    picture, panels = Picture(load("crank-rocker"), (640, 360), Look()), []
+    panel = GamePanel("Heading", lines=("A question?",))
+    for helped in (False, True):
+        surface = with_panels(picture, 1.0, stated(panel, helped=helped))
         panels.append(min(sum(surface.get_at((x, y))[:3]) for x in range(8, 120) for y in range(8, 30)))
     clear, veiled = panels  # the darkest of its words
     assert veiled > clear + 200
@@ -349,10 +339,9 @@ HINT = "↑ ↓ choose   ← → nudge   digits type   Enter takes   Ctrl+Z undo
 def test_an_edit_list_stays_inside_the_window_and_shows_the_chosen_row_at_a_size_that_reads(
     count: int, chosen: int, size: tuple[int, int]
 ) -> None:
-    scene, surface = load("crank-rocker"), offscreen(size)
     rows = tuple(EditRow(f"joints.A{n}.length", "55 mm", n == chosen) for n in range(count))
-    overlay = Overlay(listed=Panel(rows, error=LONG, hint=HINT))
-    SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(1.0), overlay)
+    picture = Picture(load("crank-rocker"), size, Look())
+    surface = with_panels(picture, 1.0, stated(Panel(rows, error=LONG, hint=HINT)))
     theme = theme_of("light")
     edge = [(x, y) for x in range(0, size[0] // 2, 7) for y in (0, size[1] - 1)]
     assert all(tuple(surface.get_at(place)) == (*theme.background, 255) for place in edge)

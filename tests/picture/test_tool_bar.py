@@ -6,12 +6,13 @@ import pytest
 from pictures import pixels
 
 from linkanim.build.tools import TOOLS
+from linkanim.picture.board import Board
 from linkanim.picture.layout import Layout, layout, tool_cells
-from linkanim.picture.overlay import ToolBar
 from linkanim.picture.raster import offscreen
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
-from linkanim.picture.tools import ToolPrinter
 from linkanim.picture.view import Rect
+from linkanim.ui.tools import tool_bar, tooltip
 
 
 def _tooltip(window: Layout, pointed: int) -> Rect:
@@ -20,7 +21,9 @@ def _tooltip(window: Layout, pointed: int) -> Rect:
     for one in (None, pointed):
         surface = offscreen(window.size)
         surface.fill(LIGHT.background)
-        ToolPrinter().draw(surface, window, LIGHT, ToolBar(0, one))
+        board = Board(window, Type(), LIGHT)
+        for sheet, at in [tool_bar(board, 0), *([tooltip(board, (one, False))] if one is not None else [])]:
+            surface.blit(sheet, at)
         painted.append(pixels(surface))
     down, across = (painted[0] != painted[1]).any(axis=2).nonzero()
     x, y = float(across.min()), float(down.min())

@@ -18,7 +18,6 @@ from shown_lists import game_in
 
 from linkanim.errors import BadInput
 from linkanim.picture.marks import Lane
-from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.follow import (
     CONTROLS,
@@ -141,7 +140,7 @@ def test_the_arrow_keys_set_how_fast_the_crank_turns() -> None:
 def test_it_counts_three_two_one_before_the_paper_scrolls() -> None:
     state, seen = advance(on("follow scene=press"), [Action("next")]), []
     while game(state).stage == "counts":
-        panel = game_in(game(state).shown(state, Overlay()))
+        panel = game(state).panel(state)
         assert panel
         seen.append(panel.heading)
         assert game(state).paper == 0
@@ -179,12 +178,12 @@ def test_a_run_replays_to_the_same_score_from_its_start_and_from_its_midst() -> 
 def test_a_run_that_is_over_is_compared_with_the_best(best: int, well: bool, words: str) -> None:
     state = on("follow scene=press")
     run = replace(game(state), stage="over", passed=1_500_999, outside=90, paper=1_600_000, best=best)
-    panel = game_in(run.shown(state, Overlay()))
+    panel = run.panel(state)
     assert panel
     assert (panel.well, panel.verdict) == (well, words)
     assert [bar.words for bar in panel.bars] == ["1.50 m", "1.5 s"]
     assert run.level == 1
-    whole = game_in(replace(run, paper=1_000 * LENGTH).shown(state, Overlay()))
+    whole = replace(run, paper=1_000 * LENGTH).panel(state)
     assert whole
     assert (whole.well, "to the end of the paper" in whole.verdict) == (True, True)
 
@@ -196,7 +195,7 @@ def test_the_track_is_wholly_in_sight(name: str, size: tuple[int, int]) -> None:
     picture = framing.fitting(state, size)
     stage = picture.layout.stage
     for paper in range(0, 1_000 * LENGTH, 450_000):
-        (shown,) = replace(game(state), paper=paper).shown(state, Overlay()).drawn
+        (shown,) = replace(game(state), paper=paper).drawn(state)
         (drawn,) = shown.behind(picture.drawing.setting, state.scene.pose(state.phase))
         points = np.concatenate([np.ravel(loop) for layer in drawn.layers for loop in layer.loops])
         assert stage.x <= points.real.min()
@@ -217,10 +216,7 @@ def test_the_manual_has_the_keys_of_the_panel() -> None:
     assert [f"| {keys} | {words} |" for keys, words in CONTROLS.items()] == [
         line for line in manual.splitlines() if line.startswith("| ") and "key, hand" not in line
     ]
-    panel = on("follow scene=press stage=runs").game
-    assert panel
-    shown = game_in(panel.shown(on("follow scene=press"), Overlay()))
-    assert shown
+    shown = game_in(on("follow scene=press stage=runs"))
     assert all(words in shown.hint for words in ("← → slower, faster", "drag the crank pin", "Space stop"))
 
 
@@ -289,7 +285,7 @@ def test_another_track_or_level_is_chosen_before_it_starts(player: Player) -> No
 
 def test_the_lane_is_drawn_where_the_ram_is() -> None:
     *_, (state, _) = followed(on("follow scene=press"), 60)
-    (lane,) = game(state).shown(state, Overlay()).drawn
+    (lane,) = game(state).drawn(state)
     assert isinstance(lane, Lane)
     ram = state.scene.pose(state.phase, 0).position["C"]
     back, forward = (complex(*place) for place in (lane.back, lane.forward))

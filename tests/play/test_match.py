@@ -14,10 +14,8 @@ import numpy as np
 import pygame
 import pytest
 from playing import Player
-from shown_lists import game_in
 
 from linkanim.errors import BadInput
-from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.match import MatchGame, Worth, level_names, level_of, made, trace
@@ -85,7 +83,7 @@ def test_every_level_is_solved_by_its_tape_with_full_score(name: str) -> None:
     assert game(last).level == name
     assert game(last).points == (100, 100, 100)
     assert not game(last).gave_up
-    panel = game_in(game(last).shown(last, Overlay()))
+    panel = game(last).panel(last)
     assert panel
     assert (
         panel.verdict
@@ -223,7 +221,7 @@ def test_giving_up_shows_the_answer_and_goes_back_to_one_s_own() -> None:
     state = done(on("match level=ellipse"), *dragged("P", 20.0, 10.0))
     own = game(state)
     given = done(state, ("option", 0))
-    panel = game_in(game(given).shown(given, Overlay()))
+    panel = game(given).panel(given)
     assert panel
     assert game(given).joints == level_of("ellipse").answer
     assert "can be had" in panel.verdict
@@ -333,7 +331,7 @@ def test_a_level_written_by_hand_is_played(tmp_path: Path) -> None:
     file.write_text(BY_HAND, encoding="utf-8")
     state = on(f"match level={file}")
     assert game(state).of_level.title == "Mine"
-    panel = game_in(game(state).shown(state, Overlay()))
+    panel = game(state).panel(state)
     assert panel
     assert [choice.text for choice in panel.choices] == ["Begin again", "The next level"]
 
@@ -394,6 +392,6 @@ def test_the_least_angle_is_the_solver_s() -> None:
 def test_doing_nothing_earns_nothing(level: str) -> None:
     state = on(f"match level={level}")
     assert game(state).points == (0, 0, 0)
-    panel = game_in(game(state).shown(state, Overlay()))
+    panel = game(state).panel(state)
     assert panel
     assert "until the coupler point runs along the dots" in panel.lines[0]

@@ -18,7 +18,6 @@ from shown_lists import game_in
 from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.picture.game_panel import GamePanel
-from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.kinds import KINDS
@@ -79,7 +78,7 @@ def right_of(state: State) -> int:
 
 
 def panel_of(state: State) -> GamePanel:
-    panel = game_in(round_of(state).shown(state, Overlay()))
+    panel = round_of(state).panel(state)
     assert panel
     return panel
 
@@ -183,8 +182,7 @@ def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player
 def test_a_round_can_be_about_the_mechanism_that_was_on() -> None:
     state = playing("menu")
     assert state.game
-    panel = game_in(state.game.shown(state, Overlay()))
-    assert panel
+    panel = game_in(state)
     assert [choice.key for choice in panel.choices] == [f"{n}" for n in range(1, len(panel.choices) + 1)]
     state = carried(state, Action("raise", 1))  # from the first row to the last
     assert isinstance(state.game, Menu)
@@ -235,7 +233,7 @@ def test_a_round_ends_with_the_best_score_and_what_was_missed() -> None:
         assert question
         asked.append(question)
         state = answered(state, well=len(asked) != 3)
-    panel = game_in(round_of(state).shown(state, Overlay()))
+    panel = round_of(state).panel(state)
     assert panel
     text = " ".join(panel.lines)
     assert "The best is 5000 points." in text

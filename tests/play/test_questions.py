@@ -290,7 +290,7 @@ def test_the_key_of_a_place_lies_on_no_joint() -> None:
         figured = question_figure(question)
         setting, pose = figured.picture.drawing.setting, load(name).pose(question.phase)
         joints = [setting.view.pixel(pose.position[joint]) for joint in setting.figure.in_view]
-        (spots,) = figured.overlay.drawn
+        (spots,) = figured.beside.drawn
         for words in (line for group in spots.groups(setting, pose) for line in group.captions):
             middle = complex(words.at[0], words.at[1] + 0.5 * words.size)
             assert min(abs(middle - joint) for joint in joints) > 0.9 * words.size

@@ -16,7 +16,8 @@ from linkanim.player.action import Action, Value
 from linkanim.player.actions import advance, carried
 from linkanim.player.state import State, begin
 from linkanim.player.tape import resumed, starting
-from linkanim.ui.shown import overlay
+from linkanim.ui.panels import panel_of
+from linkanim.ui.pictures import beside
 
 # What is pressed in games, what begins one, and what belongs to the window beneath.
 PRESSED: dict[str, Callable[[Random], Value]] = {
@@ -60,7 +61,8 @@ def test_no_key_brings_a_game_to_a_fault(seed: int, tmp_path: Path) -> None:
                 state = carried(state, Action("play", arcade.completed(str(effect.value))))
             elif effect.name == "score":
                 arcade.keep(str(effect.value))
-        overlay(state)
+        assert state.game is None or panel_of(state)
+        beside(state)
         seen[type(state.game).__name__] += 1
         if seen.total() % 25 == 0:
             assert type(stood(state).game) is type(state.game)

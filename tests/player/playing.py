@@ -8,13 +8,13 @@ from typing import Any
 import pygame
 
 from linkanim.picture.view import Rect
-from linkanim.player.commands import Entries
+from linkanim.player.commands import Entries, bar
 from linkanim.player.files import SceneFile
 from linkanim.player.listing import Listing
 from linkanim.player.state import CHIP_FRAMES, MOUSE_FRAMES, OneMode, State
 from linkanim.synthesis.follower import Reply, Request
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.panels import watched
 from linkanim.ui.window import GameKeeper, Window
 
 SIZE = (320, 180)
@@ -52,7 +52,7 @@ class Player:
         """Let go by what answers a key, the bar, and what to watch for; return the pixels then."""
         moved = self.state.last_mouse_move
         self.tick(max(CHIP_FRAMES, 0 if moved is None else moved + MOUSE_FRAMES - self.state.frame))
-        while (words := overlay(self.state).watch) and words.eighths and not self.state.look.names:
+        while watched(self.state) and not self.state.look.names:
             self.tick(60)
         return self.pixels
 
@@ -71,8 +71,7 @@ class Player:
 def bar_cells_in(shown: screen.Screen) -> list[Rect | None]:
     """Return where the buttons of the bar were drawn, by their numbers; None for those without room."""
     found = {one.value: one.place for one in shown.targets("button")}
-    buttons = shown.over.bar.buttons if shown.over.bar else ()
-    return [found.get(number) for number in range(len(buttons))]
+    return [found.get(number) for number in range(len(bar(shown.state)))]
 
 
 def the(state: State, kind: type[OneMode]) -> OneMode:

@@ -3,22 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import accumulate, pairwise
+from itertools import accumulate
 from pathlib import Path
 
 import pygame
 import pytest
 from playing import SIZE, Player
+from shown_lists import lines_in
 
-from linkanim.picture.overlay import DimensionLine, Overlay
+from linkanim.picture.board import Board
+from linkanim.picture.drawn import Additions
+from linkanim.picture.layout import layout
+from linkanim.picture.look import Look
+from linkanim.picture.marks import DimensionLine, Glow, MeasuredLines
+from linkanim.picture.picture import Picture
+from linkanim.picture.raster import offscreen, pixel_view
+from linkanim.picture.surface import SurfacePrinter
+from linkanim.picture.text import letters
+from linkanim.picture.theme import LIGHT
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import CHIP_FRAMES, MOVE_FRAMES, SHUTTER_FRAMES, State, begin
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import closure_name
 from linkanim.ui import screen as display
-from linkanim.ui.pictures import fading, flash
-from linkanim.ui.shown import lasting, overlay
+from linkanim.ui.panels import chip_of, hint, recorded_for, watched, words_at_foot
+from linkanim.ui.pictures import beside, fading, flash, shutter
 from linkanim.ui.window import Window
 
 
@@ -80,8 +90,8 @@ ANSWERS: dict[str, tuple[tuple[Action | str, ...], str | None]] = {
 
 @pytest.mark.parametrize(("actions", "words"), ANSWERS.values(), ids=ANSWERS)
 def test_a_chip_answers(rocker: State, actions: tuple[Action | str, ...], words: str | None) -> None:
-    chip = overlay(after(rocker, *actions)).chip
-    assert (chip.text if chip else None) == words
+    chip = chip_of(after(rocker, *actions))
+    assert chip == words
 
 
 def test_a_refusal_is_told_and_not_answered() -> None:
@@ -89,15 +99,12 @@ def test_a_refusal_is_told_and_not_answered() -> None:
     assert (state.chip, state.toast is not None) == (None, True)
 
 
-def test_a_chip_fades_and_goes(rocker: State) -> None:
-    state, seen = after(rocker, "direction"), []
+def test_a_chip_goes(rocker: State) -> None:
+    state = after(rocker, "direction")
     for _ in range(CHIP_FRAMES):
-        chip = overlay(state).chip
-        seen.append(chip.eighths if chip else 0)
+        assert chip_of(state)
         state = advance(state)
-    assert (seen[0], seen[-1]) == (8, 1)
-    assert seen == sorted(seen, reverse=True)
-    assert overlay(state).chip is None
+    assert chip_of(state) is None
 
 
 # The name of a closure, where a shorthand, a long form or nothing says it.
@@ -110,53 +117,44 @@ def test_a_closure_has_a_name(name: str) -> None:
 
 
 def test_a_strip_says_what_to_press_until_a_key_is(rocker: State) -> None:
-    strips = [overlay(run(rocker, frame)).hint for frame in (0, 360, 400, 680, 720, 960)]
+    strips = [hint(run(rocker, frame)) for frame in (0, 360, 400, 680, 720, 960)]
     assert [strip is not None for strip in strips] == [False, False, True, True, False, False]
     assert strips[2] is not None
-    assert "Space pause" in strips[2].text
-    assert overlay(run(after(rocker, "trace"), 100)).hint is None
-
-
-@pytest.mark.slow
-def test_a_strip_comes_in_and_goes_out_gently(rocker: State) -> None:
-    strips = [overlay(state).hint for state in every_other(rocker, 350, 730)]
-    shown = [strip.eighths if strip else 0 for strip in strips]
-    assert max(shown) == 8
-    assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
+    assert "Space pause" in strips[2]
+    assert hint(run(after(rocker, "trace"), 100)) is None
 
 
 @pytest.mark.slow
 def test_what_to_watch_for_is_told_first_and_is_gone_before_the_strip(rocker: State) -> None:
     frames = every_other(rocker, 0, 380)
-    told = [overlay(state).watch for state in frames]
-    shown = [one.eighths if one else 0 for one in told]
-    assert {one.text for one in told if one} == {rocker.scene.look_at}
-    assert (shown[0], max(shown), shown[-1]) == (0, 8, 0)
-    assert not any(one and overlay(state).hint for one, state in zip(told, frames, strict=True))
+    told = [watched(state) for state in frames]
+    assert {one for one in told if one} == {rocker.scene.look_at}
+    assert (told[0], told[-1]) == (None, None)
+    assert not any(one and hint(state) for one, state in zip(told, frames, strict=True))
 
 
 # What ends the sentence: whatever is done; another mechanism has its own.
 def test_what_is_done_ends_the_sentence_and_another_mechanism_has_its_own(rocker: State) -> None:
-    assert overlay(run(rocker, 40)).watch
-    assert overlay(run(after(run(rocker, 40), "direction"), 20)).watch is None
+    assert watched(run(rocker, 40))
+    assert watched(run(after(run(rocker, 40), "direction"), 20)) is None
     on = run(after(run(rocker, 40), Action("mechanism", 1)), 40)
-    told = overlay(on).watch
+    told = watched(on)
     assert told
-    assert told.text == on.scene.look_at
-    assert overlay(after(on, Action("record", "gif"))).watch is None
+    assert told == on.scene.look_at
+    assert watched(after(on, Action("record", "gif"))) is None
 
 
 def test_names_bring_the_sentence_and_keep_it(rocker: State) -> None:
     state = after(run(rocker, 400), "names")
     for one in (state, run(state, 400)):
-        told = overlay(replace(one, chip=None)).watch
+        told = watched(replace(one, chip=None))
         assert told
-        assert told.text == rocker.scene.look_at
-    assert overlay(after(state, "names", "names")).watch is None
+        assert told == rocker.scene.look_at
+    assert watched(after(state, "names", "names")) is None
 
 
 def test_a_strip_is_shown_once(rocker: State) -> None:
-    shown = [overlay(replace(rocker, frame=frame)).hint is not None for frame in range(100, 12_000, 50)]
+    shown = [hint(replace(rocker, frame=frame)) is not None for frame in range(100, 12_000, 50)]
     assert any(shown)
     assert not any(shown[20:])
 
@@ -164,18 +162,19 @@ def test_a_strip_is_shown_once(rocker: State) -> None:
 @pytest.mark.parametrize("quiet", ["pause", "help", "list", "shelf", "edit", Action("record", "gif")])
 def test_there_is_no_strip_over_anything_else(rocker: State, quiet: str | Action) -> None:
     state = replace(after(rocker, quiet), touched=0)
-    assert all(overlay(replace(state, frame=frame, chip=None)).hint is None for frame in range(0, 360, 20))
+    assert all(hint(replace(state, frame=frame, chip=None)) is None for frame in range(0, 360, 20))
 
 
 def test_nothing_that_comes_and_goes_is_on_a_screenshot(rocker: State) -> None:
     state = after(rocker, "direction", "screenshot", Action("note", "told"))
-    shown = lasting(state)
-    assert (shown.chip, shown.hint, shown.toast, shown.shutter) == (None, None, None, 0)
+    board = Board(layout(SIZE), letters(), LIGHT)
+    assert words_at_foot(board, state)
+    assert words_at_foot(board, state, shown="screenshot") is None
 
 
 def test_a_screenshots_shutter_flashes_and_goes(rocker: State) -> None:
     state = after(rocker, "screenshot")
-    seen = [overlay(run(state, frame)).shutter for frame in range(SHUTTER_FRAMES + 1)]
+    seen = [shutter(run(state, frame)) for frame in range(SHUTTER_FRAMES + 1)]
     assert (seen[0], seen[-1]) == (8, 0)
     assert seen == sorted(seen, reverse=True)
     assert run(state, SHUTTER_FRAMES).shot is None
@@ -183,8 +182,8 @@ def test_a_screenshots_shutter_flashes_and_goes(rocker: State) -> None:
 
 def test_a_recording_tells_its_seconds(rocker: State) -> None:
     state = run(after(run(rocker, 90), Action("record", "gif")), 120)
-    assert overlay(state).recording == "REC GIF 0:02"
-    assert overlay(replace(state, frame=state.frame + 60 * 60)).recording == "REC GIF 1:02"
+    assert recorded_for(state) == "REC GIF 0:02"
+    assert recorded_for(replace(state, frame=state.frame + 60 * 60)) == "REC GIF 1:02"
 
 
 def test_another_mechanism_fades_over(player: Player) -> None:
@@ -253,20 +252,20 @@ def test_with_the_list_open_what_can_be_dragged_glows(player: Player) -> None:
 
 
 def test_a_charts_cursor_has_a_grip(player: Player) -> None:
-    assert not overlay(player.state).grip
-    assert overlay(after(player.state, Action("chart", 1))).grip
+    assert not beside(player.state).grip
+    assert beside(after(player.state, Action("chart", 1))).grip
 
 
 def test_the_chosen_bar_is_measured_on_the_picture(rocker: State) -> None:
     state = after(rocker, "edit", Action("choose", 1))
-    assert overlay(state).measured == (DimensionLine(("O2", "A"), 0, 1, "50 mm"),)
-    assert overlay(after(state, Action("choose", -2))).measured == ()
-    assert overlay(after(state, "edit")).measured == ()
+    assert lines_in(state) == (DimensionLine(("O2", "A"), 0, 1, "50 mm"),)
+    assert lines_in(after(state, Action("choose", -2))) == ()
+    assert lines_in(after(state, "edit")) == ()
 
 
 def test_a_coupler_points_construction_is_on_the_picture(rocker: State) -> None:
     state = after(rocker, "edit", Action("choose", 5))
-    chosen, other = overlay(state).measured
+    chosen, other = lines_in(state)
     assert (chosen.words, chosen.chosen) == ("to the right 70 mm", True)
     assert (other.words, other.chosen) == ("along 80 mm", False)
     assert chosen.begin == other.end
@@ -275,29 +274,30 @@ def test_a_coupler_points_construction_is_on_the_picture(rocker: State) -> None:
 @pytest.mark.parametrize(("row", "words"), [(2, "to the right 12 cm"), (4, "to the left 80 cm")])
 def test_a_point_s_way_off_its_bar_says_to_which_side(row: int, words: str) -> None:
     state = after(begin(load("excavator")), "edit", Action("choose", row))
-    assert overlay(state).measured[0].words == words
+    assert lines_in(state)[0].words == words
 
 
 # Everything that only the window shows changes the picture, and nothing of it stays.
 MARKS = {
-    "a measure": Overlay(measured=(DimensionLine(("O2", "A"), 0, 1, "50 mm"),)),
-    "a glow": Overlay(glow="B"),
-    "a grip": Overlay(grip=True),
+    "a measure": Additions((MeasuredLines((DimensionLine(("O2", "A"), 0, 1, "50 mm"),)),)),
+    "a glow": Additions((Glow("B"),)),
+    "a grip": Additions(grip=True),
 }
 
 
 @pytest.mark.parametrize("size", [(320, 180), (640, 360)])
-@pytest.mark.parametrize("over", MARKS.values(), ids=MARKS)
-def test_a_mark_is_drawn_and_goes(over: Overlay, size: tuple[int, int]) -> None:
-    with display.opened(size):
-        player = Player(run(after(begin(load("crank-rocker")), Action("chart", 1), "pause"), MOVE_FRAMES))
-        screen, plain = player.window.screen, player.pixels
-        screen.show(
-            player.state, replace(lasting(player.state), **vars(over) | {"paused": True, "noted": True})
-        )
-        marked = player.pixels
-        screen.show(player.state, lasting(player.state))
-        bare = player.pixels
-        player.window.close()
+@pytest.mark.parametrize("drawn", MARKS.values(), ids=MARKS)
+def test_a_mark_is_drawn_and_goes(drawn: Additions, size: tuple[int, int]) -> None:
+    scene = load("crank-rocker")
+    picture, printer, surface = (
+        Picture(scene, size, Look(chart="B.velocity")),
+        SurfacePrinter(),
+        offscreen(size),
+    )
+    seen = []
+    for one in (Additions(), drawn, Additions()):
+        printer.paint(surface, picture, scene.pose(1.0), one)
+        seen.append(bytes(pixel_view(surface)))
+    plain, marked, bare = seen
     assert marked != bare
     assert plain

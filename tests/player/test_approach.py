@@ -27,7 +27,6 @@ from linkanim.scenes import load
 from linkanim.ui import screen as display
 from linkanim.ui.pictures import Framing
 from linkanim.ui.screen import Screen
-from linkanim.ui.shown import overlay
 
 A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
 
@@ -270,10 +269,10 @@ def test_equal_states_are_equal_pictures() -> None:
         states = toured()
         whole, seen = Screen(states[0]), list[bytes]()
         for state in states:
-            whole.show(state, overlay(state))
+            whole.show(state)
             seen.append(pygame.image.tobytes(display.display_surface(), "RGB"))
         for n in range(1, len(states), 4):
-            Screen(states[n]).show(states[n], overlay(states[n]))
+            Screen(states[n]).show(states[n])
             assert pygame.image.tobytes(display.display_surface(), "RGB") == seen[n], n
 
 

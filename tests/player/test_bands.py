@@ -9,9 +9,11 @@ import numpy as np
 import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player, menu_in
+from shown_lists import drawn_in
 
 import linkanim
 from linkanim.mechanics.measures import as_complex
+from linkanim.picture.build_sheet import Head
 from linkanim.picture.marks import TraceBands
 from linkanim.player import background
 from linkanim.player.action import Action
@@ -19,7 +21,6 @@ from linkanim.player.bands import ToleranceBand
 from linkanim.player.state import begin
 from linkanim.scenes import load
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
 
 
 @pytest.fixture
@@ -53,7 +54,7 @@ def opened(player: Player, way: str) -> None:
 def test_the_band_is_opened_by_hand_and_closed_by_esc(player: Player, way: str) -> None:
     before = player.settle()
     opened(player, way)
-    head = overlay(player.state).head
+    head = drawn_in(player.state, Head)
     assert head
     assert "each length ± 0.2 mm: P up to" in head.sentence
     assert "chiefly by rocker" in head.facts[0]
@@ -74,8 +75,8 @@ def test_a_band_is_as_wide_as_the_tolerance_says(player: Player) -> None:
     ):
         if key:
             player.press(key)
-        (band,) = overlay(player.state).drawn
-        assert isinstance(band, TraceBands)
+        band = drawn_in(player.state, TraceBands)
+        assert band
         found = linkanim.tolerance("crank-rocker", by, samples=0).quantities[0]
         edges = np.array(band.edges[0])
         motion = load("crank-rocker").cycle(len(edges), derivatives=1)
@@ -85,7 +86,7 @@ def test_a_band_is_as_wide_as_the_tolerance_says(player: Player) -> None:
             away = edges[:, side] - place
             assert np.abs(away)[::4] == pytest.approx(found.bound, rel=1e-6)
             assert (np.conj(rate) * away).real == pytest.approx(0, abs=1e-6 * np.abs(rate).max())
-        head = overlay(player.state).head
+        head = drawn_in(player.state, Head)
         assert head
         assert f"± {by:g} mm" in head.sentence
         assert f"{found.worst:.3g} mm" in head.sentence

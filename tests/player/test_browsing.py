@@ -12,10 +12,10 @@ from playing import SIZE, Player, fake_start, the
 from shown_lists import words_in
 
 from linkanim.picture.quantities import quantity
-from linkanim.picture.shelf import Grid
-from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.browsing import Grid
+from linkanim.player.browsing import grid as shelf_grid
 from linkanim.player.commands import Entries, ListRow
 from linkanim.player.listing import Listing, listed
 from linkanim.player.shelving import OpenShelf
@@ -23,7 +23,6 @@ from linkanim.player.state import State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import Scene, load, names
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
 
 
 def after(state: State, *actions_: Action | str) -> State:
@@ -59,7 +58,7 @@ def test_every_row_of_k_has_symbol_value_and_unit(name: str) -> None:
     with screen.opened(SIZE):
         player = Player(begin(load(name)))
         player.type("k")
-        told = words_in(overlay(player.state))
+        told = words_in(player.state)
         while told and told.chosen < len(told.rows) - 1:
             for words, text in told.rows[max(told.chosen - 9, 0) : told.chosen + 10]:
                 plain = words == "Mechanical advantage"  # a ratio without a unit
@@ -67,7 +66,7 @@ def test_every_row_of_k_has_symbol_value_and_unit(name: str) -> None:
                     r"\S.* = [−\d.,∞ ]+(×10[⁻⁰¹²³⁴-⁹]+)?" + ("" if plain else "(°|[a-zN/² ]+)"), text
                 ), words
             player.press(pygame.K_PAGEDOWN)
-            told = words_in(overlay(player.state))
+            told = words_in(player.state)
         player.window.close()
 
 
@@ -89,7 +88,7 @@ def test_letters_filter_the_list(press: State, typed: str, found: str) -> None:
 
 
 def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
-    shown = words_in(overlay(after(press, "list", Action("filter", "cushion.f"))))
+    shown = words_in(after(press, "list", Action("filter", "cushion.f")))
     assert shown is not None
     known = quantity(press.scene, "cushion.force")
     ((words, value),) = shown.rows
@@ -217,7 +216,7 @@ def test_the_shelf_opens_at_once_and_reads_a_mechanism_every_second_frame(
         read.append(name)
         return load(name)
 
-    monkeypatch.setattr("linkanim.picture.shelf.load", reading)
+    monkeypatch.setattr("linkanim.ui.shelf.load", reading)
     player.type("o")
     for frame in range(7):
         assert len(read) == (frame + 1) // 2  # what is read in one frame is drawn in the next
@@ -492,7 +491,7 @@ def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
 def test_a_list_of_very_many_entries_is_filtered_once_for_its_letters(press: State) -> None:
     entries = Entries("Many", tuple(ListRow(f"s{n:05}", "", Action("note", "")) for n in range(50_000)))
     opened = press.with_mode(Listing(0, others=entries))
-    lists = [words_in(overlay(state)) for state in (opened, after(opened, Action("move", 3)))]
+    lists = [words_in(state) for state in (opened, after(opened, Action("move", 3)))]
     assert [one and one.chosen for one in lists] == [0, 3]
     rows = [one and one.rows for one in lists]
     assert rows[0] is rows[1]  # no frame and no key looks at all of them again
@@ -511,7 +510,7 @@ def test_every_row_of_k_in_sight_has_its_value(size: tuple[int, int]) -> None:
         player.type("k")
         for _ in range(7):
             player.tick(20)
-            told = words_in(overlay(player.state))
+            told = words_in(player.state)
             assert told
             found = (player.window.screen.row_at(60, y) for y in range(2, size[1], 4))
             seen = {row for row in found if row is not None and row >= 0}

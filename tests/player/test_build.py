@@ -18,15 +18,15 @@ from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
 from linkanim.picture.build_sheet import draft_gauge
 from linkanim.picture.layout import tool_cells
-from linkanim.picture.overlay import NEW
 from linkanim.picture.photograph import lack
 from linkanim.picture.sheet_rows import SheetRows
-from linkanim.picture.tools import ICONS
+from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.play.arcade import Arcade
 from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
+from linkanim.player.browsing import NEW
 from linkanim.player.files import DraftFile
 from linkanim.player.keys import Press, bind_of
 from linkanim.player.modes import KEYS_OF
@@ -42,7 +42,9 @@ from linkanim.scenes.editing import dimensions, other_closure
 from linkanim.scenes.toml import parse, save
 from linkanim.synthesis.answers import PathAnswer
 from linkanim.ui import screen
-from linkanim.ui.shown import recorded
+from linkanim.ui.panels import Panels, tools_of
+from linkanim.ui.pictures import beside, recorded
+from linkanim.ui.tools import ICONS
 
 WINDOW = (640, 360)
 
@@ -83,15 +85,17 @@ def builder(here: object) -> Iterator[Builder]:
 
 def on_sheet(builder: Builder) -> SheetDrawing:
     """Return the sheet as it was drawn last."""
-    (shown,) = builder.window.screen.over.drawn
+    shown_ = builder.window.screen
+    (shown,) = beside(shown_.state, shown_.mouse).drawn
     assert isinstance(shown, SheetDrawing)
     return shown
 
 
 def captions(builder: Builder) -> list[Rect]:
     """Return where words stand on the window, without those of the list beside the sheet."""
-    picture, state, over = builder.window.screen.last, builder.state, builder.window.screen.over
-    groups = picture.groups(picture.scene.pose(state.phase), over)
+    shown, state = builder.window.screen, builder.state
+    picture = shown.last
+    groups = picture.groups(picture.scene.pose(state.phase), beside(state, shown.mouse))
     of_sheet = (group for group in groups if group.name != "sheet-rows")
     return [line.around(picture.type) for group in of_sheet for line in group.captions]
 
@@ -254,9 +258,8 @@ def test_icons_take_tools_and_act(builder: Builder) -> None:
     builder.mouse(
         pygame.MOUSEMOTION, (cells[0].middle.real, cells[0].middle.imag), rel=(0, 0), buttons=(0, 0, 0)
     )
-    tools = builder.window.screen.over.tools
-    assert tools
-    assert tools.pointed == 0
+    assert tools_of(builder.state)
+    assert builder.window.screen.mouse.tool == 0
 
 
 def test_another_mechanism_leaves_the_sheet(builder: Builder) -> None:
@@ -511,9 +514,12 @@ def test_a_building_tape_is_recorded_with_the_hand_and_without_tools(builder: Bu
     assert found.path.exists()
     grip = replace(builder.state.building, grip=Grip((0, 0), (9, 9), 1, 1, builder.sheet.building, True))  # type: ignore[type-var]
     state = replace(builder.state, sheet=grip)
-    over, picture = recorded(state), builder.window.screen.last
-    drawn = {group.name for group in picture.groups(picture.scene.pose(state.phase), over)}
-    assert (over.tools, "hand" in drawn) == (None, True)
+    picture = builder.window.screen.last
+    drawn = {group.name for group in picture.groups(picture.scene.pose(state.phase), recorded(state))}
+    assert "hand" in drawn
+    assert not any(
+        one.kind == "tool" for one in Panels().drawn(state, picture.layout, LIGHT, shown="tape")[1]
+    )
 
 
 @pytest.fixture
@@ -1045,7 +1051,8 @@ def test_the_grid_says_its_size_and_points_of_bodies_are_dots(builder: Builder) 
     shown = on_sheet(builder)
     assert len(shown.dots) == 1
     screen_ = builder.window.screen
-    groups = screen_.last.groups(builder.state.scene.pose(builder.state.phase), screen_.over)
+    pose, over = builder.state.scene.pose(builder.state.phase), beside(builder.state, screen_.mouse)
+    groups = screen_.last.groups(pose, over)
     captions = [one.text for group in groups for one in group.captions]
     assert f"grid {builder.window.screen.grid_step:g} mm" in captions
 

@@ -131,7 +131,7 @@ def test_a_triad_runs_is_undone_saved_and_opened_again(hand: Hand, here: Path) -
 def test_a_number_of_a_triad_is_typed_in_the_list_of_dimensions(hand: Hand) -> None:
     hand.stephenson()
     hand.press(pygame.K_e)
-    panel = values_in(hand.window.screen.over)
+    panel = values_in(hand.state)
     assert panel
     rows = ["".join(row.label) if not isinstance(row.label, str) else row.label for row in panel.rows]
     assert len(rows) > 6

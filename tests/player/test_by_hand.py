@@ -50,7 +50,7 @@ class Sitting(Player):
 
     def words_of_list(self) -> dict[str, str]:
         """Return the rows of the open list as they are drawn: their words, and what stands beside them."""
-        shown = words_in(self.window.screen.over)
+        shown = words_in(self.state)
         assert shown
         return dict(shown.rows)
 
@@ -93,7 +93,7 @@ def test_a_lecturer_s_list_takes_at_most_twelve_gestures(sitting: Sitting) -> No
     one.word("60")
     one.key("Enter")
     assert one.state.scene.linkage.crank("A").length == 60
-    panel = values_in(one.window.screen.over)
+    panel = values_in(one.state)
     assert panel
     assert panel.facts[0] == one.state.scene.info.class_name
     assert one.gestures <= 12

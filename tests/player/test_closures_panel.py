@@ -10,9 +10,9 @@ import pytest
 from playing import CTRL, Player, menu_in, the
 from published import STEPHENSON
 
-from linkanim.picture.shelf import grid
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.browsing import grid
 from linkanim.player.reassembling import OpenClosures
 from linkanim.player.state import begin
 from linkanim.scenes import load

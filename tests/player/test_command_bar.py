@@ -12,19 +12,17 @@ import pygame
 import pytest
 from playing import SIZE, Player, bar_cells_in, menu_in, the
 
-from linkanim.picture.command_bar import BarPrinter, bar_cells
-from linkanim.picture.command_icons import COMMAND_ICONS
+from linkanim.picture.board import Board
 from linkanim.picture.layout import Docked, Layout, layout, with_side
-from linkanim.picture.overlay import CommandBar
-from linkanim.picture.raster import offscreen
-from linkanim.picture.theme import LIGHT, theme_of
+from linkanim.picture.text import letters
+from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
 from linkanim.player import record_dialog
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
-from linkanim.player.commands import bar, pressed, slid, slides
-from linkanim.player.keys import GROUPS, commands
+from linkanim.player.commands import Button, bar, bar_eighths, pressed, slid, slides
+from linkanim.player.keys import GROUPS, commands, help_groups
 from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
@@ -35,8 +33,9 @@ from linkanim.player.state import MOUSE_FRAMES, State, begin
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
 from linkanim.ui import screen
+from linkanim.ui.command_bar import CommandBar, bar_cells
+from linkanim.ui.command_icons import COMMAND_ICONS
 from linkanim.ui.pictures import Framing
-from linkanim.ui.shown import lasting, overlay
 
 
 def after(state: State, *actions: Action | str) -> State:
@@ -79,19 +78,24 @@ def entered(mode: str) -> State:
 
 
 def test_the_bar_shows_for_three_seconds_after_the_mouse_has_moved(rocker: State) -> None:
-    assert overlay(begin(load("crank-rocker"))).bar is None
+    assert bar(begin(load("crank-rocker"))) == ()
     shown = []
     for _ in range(MOUSE_FRAMES + 5):
-        found = overlay(rocker).bar
-        shown.append(found.eighths if found else 0)
+        assert bool(bar(rocker)) is (bar_eighths(rocker) > 0)
+        shown.append(bar_eighths(rocker))
         rocker = advance(rocker)
     assert MOUSE_FRAMES == 180
     assert shown == sorted(shown, reverse=True)
     assert (shown[0], shown[150], shown[178], shown[180], shown[-1]) == (8, 8, 0, 0, 0)
 
 
-def test_the_bar_is_on_no_screenshot_and_no_tape(rocker: State) -> None:
-    assert lasting(rocker).bar is None
+def test_the_bar_is_on_no_screenshot_and_no_tape(player: Player) -> None:
+    player.press(pygame.K_SPACE)
+    player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
+    assert bar(player.state)
+    unmoved = replace(player.state, last_mouse_move=None)
+    shots = [player.window.screen.picture(state) for state in (player.state, unmoved)]
+    assert pygame.image.tobytes(shots[0], "RGB") == pygame.image.tobytes(shots[1], "RGB")
     assert not is_taped(Action("mouse_moved"))
 
 
@@ -106,12 +110,12 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: str) -> None:
     found = bar(state)
     assert found
     known = {action for _, _, action in commands(KEYS_OF[mode])}
-    for number, button in enumerate(found.buttons):
+    for number, button in enumerate(found):
         assert button.icon in COMMAND_ICONS or button.share is not None
         assert button.name
         (asked,) = pressed(state, number)
         assert asked in known or asked.value in GROUPS or asked == Action("note", button.lack), button
-    names = [button.name for button in found.buttons]
+    names = [button.name for button in found]
     assert len({*names}) == len(names)
     assert "all commands" in names
 
@@ -158,14 +162,14 @@ def test_a_button_of_the_bar_shows_whether_it_is_on(rocker: State) -> None:
     def lit(state: State) -> set[str]:
         found = bar(after(state, "mouse_moved"))
         assert found
-        return {button.icon for button in found.buttons if button.on}
+        return {button.icon for button in found if button.on}
 
     assert lit(rocker) == {"trace"}
     assert lit(after(rocker, "trace", "names", Action("vectors", "v"))) == {"names", "arrows"}
     assert lit(after(rocker, "edit")) == {"trace", "edit"}
-    assert "pause" in {button.icon for button in getattr(bar(rocker), "buttons", ())}
+    assert "pause" in {button.icon for button in bar(rocker)}
     paused = bar(after(rocker, "pause"))
-    assert "play" in {button.icon for button in getattr(paused, "buttons", ())}
+    assert "play" in {button.icon for button in paused}
 
 
 def test_what_cannot_be_done_is_greyed_and_says_why(player: Player) -> None:
@@ -209,7 +213,7 @@ def test_a_drag_of_the_speed_ends_where_the_mode_has_another_bar(player: Player)
 
 
 def test_a_slider_says_its_end_by_the_state_alone(rocker: State) -> None:
-    number = next(n for n, one in enumerate(getattr(bar(rocker), "buttons", ())) if one.share is not None)
+    number = next(n for n, one in enumerate(bar(rocker)) if one.share is not None)
     assert slides(rocker, number)
     assert slid(rocker, number, 1.0) == (Action("level", 10),)
     assert after(rocker, *slid(rocker, number, 0.0)).clock.level == -20
@@ -248,9 +252,9 @@ def test_a_finger_taps_the_bar_once_it_is_there(player: Player) -> None:
 SIZES = [(320, 180), (640, 360), (1280, 720), (1920, 1080), (3840, 2160), (400, 900), (90, 60), (2, 700)]
 
 
-def at_foot(place: Layout, shown: CommandBar | None) -> Rect:
+def at_foot(place: Layout, shown: tuple[Button, ...]) -> Rect:
     """Return where the bar at the foot is drawn."""
-    targets = BarPrinter().draw(offscreen(place.size), place, LIGHT, shown)
+    _, targets = CommandBar().drawn(Board(place, letters(), LIGHT), (shown, None))
     return next(one.place for one in targets if one.kind == "bar")
 
 
@@ -261,9 +265,9 @@ def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_re
 ) -> None:
     found = bar(entered(mode))
     assert found
-    place, cells = layout(size), bar_cells(layout(size), found.buttons)
+    place, cells = layout(size), bar_cells(layout(size), found)
     frame = at_foot(place, found)
-    seen = [(cell, button) for cell, button in zip(cells, found.buttons, strict=True) if cell]
+    seen = [(cell, button) for cell, button in zip(cells, found, strict=True) if cell]
     assert any(button.icon == "more" for _, button in seen)
     if min(size) >= 180:
         least = max(28, 34 * place.unit) if size[1] > 180 else 20
@@ -272,11 +276,10 @@ def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_re
         assert frame.right <= size[0]
         assert frame.bottom <= size[1] + 1e-9
     if size[0] >= 1280:
-        assert [button for _, button in seen] == [one for one in found.buttons if not one.on_chart]
-    surface = pygame.Surface(size)
-    targets = BarPrinter().draw(surface, place, theme_of("light"), found)
+        assert [button for _, button in seen] == [one for one in found if not one.on_chart]
+    _, targets = CommandBar().drawn(Board(place, letters(), LIGHT), (found, None))
     drawn = {one.value: one.place for one in targets if one.kind == "button"}
-    assert [(drawn[n], found.buttons[n]) for n in sorted(drawn)] == seen
+    assert [(drawn[n], found[n]) for n in sorted(drawn)] == seen
     for (one, _), (other, _) in pairwise(seen):
         assert one.right < other.x
 
@@ -307,8 +310,8 @@ def test_the_buttons_of_a_chart_leave_its_reading_and_its_title(
     shown = bar(after(rocker, Action("chart", 1), "mouse_moved"))
     assert shown
     assert place.chart
-    cells = bar_cells(place, shown.buttons)
-    seen = [cell for cell, one in zip(cells, shown.buttons, strict=True) if cell and one.on_chart]
+    cells = bar_cells(place, shown)
+    seen = [cell for cell, one in zip(cells, shown, strict=True) if cell and one.on_chart]
     assert len(seen) == 4
     if seen[0].y > place.chart.bottom:
         assert place.bar
@@ -321,10 +324,8 @@ def test_the_buttons_of_a_chart_leave_its_reading_and_its_title(
 def bar_now(player: Player) -> dict[str, Rect]:
     """Return where the buttons stand that are seen, by their icons."""
     player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
-    over = player.window.screen.over
-    assert over.bar
     cells = bar_cells_in(player.window.screen)
-    pairs = zip(over.bar.buttons, cells, strict=True)
+    pairs = zip(bar(player.state), cells, strict=True)
     return {one.icon: cell for one, cell in pairs if cell and not one.on_chart}
 
 
@@ -396,7 +397,7 @@ def test_on_an_empty_sheet_there_is_nothing_to_edit(player: Player) -> None:
     player.press(pygame.K_F2)
     shown = bar(after(player.state, "mouse_moved"))
     assert shown
-    (edit,) = (one for one in shown.buttons if one.icon == "edit")
+    (edit,) = (one for one in shown if one.icon == "edit")
     assert edit.lack
 
 
@@ -450,15 +451,15 @@ def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, ta
 
 def test_a_still_window_without_a_mouse_has_no_bar(player: Player) -> None:
     assert SIZE == (320, 180)
-    assert player.window.screen.over.bar is None
+    assert bar(player.state) == ()
 
 
 def button(player: Player, name: str) -> tuple[float, float, float]:
     """Move the mouse to a command on the bar; return its middle and its width."""
     player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
     screen = player.window.screen
-    assert screen.over.bar
-    buttons = screen.over.bar.buttons
+    assert bar(screen.state)
+    buttons = bar(screen.state)
     number = next(n for n, one in enumerate(buttons) if one.name.startswith(name))
     cell = bar_cells_in(screen)[number]
     assert cell
@@ -507,9 +508,7 @@ def test_a_line_of_several_commands_lists_them(large: Player) -> None:
 
 @pytest.mark.slow
 def test_every_line_of_the_help_is_under_the_mouse(large: Player) -> None:
-    shown = large.window.screen.over.help
-    assert shown
-    wanted = {keys for _, lines in shown for keys, _ in lines}
+    wanted = {keys for _, lines in help_groups(large.state.keys) for keys, _ in lines}
     found = {large.window.screen.help_at(x, y) for y in range(2, 718, 4) for x in range(20, 1270, 60)}
     assert wanted <= found
 
@@ -554,8 +553,8 @@ def test_a_slider_that_goes_while_it_is_dragged_gives_a_share_all_the_same(playe
     """Another mode's bar has fewer buttons than the one in which the drag began."""
     bar_now(player)
     shown = player.window.screen
-    assert shown.over.bar
-    numbers = range(len(shown.over.bar.buttons) + 2)
+    assert bar(shown.state)
+    numbers = range(len(bar(shown.state)) + 2)
     assert all(0.0 <= shown.share_at(number, 640.0) <= 1.0 for number in numbers)
 
 

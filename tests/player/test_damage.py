@@ -42,8 +42,8 @@ from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, to_document
 from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
-from linkanim.ui.pictures import Framing
-from linkanim.ui.shown import overlay
+from linkanim.ui.panels import Panels
+from linkanim.ui.pictures import Framing, beside
 
 FEW, ALL = 30, 500
 
@@ -52,13 +52,14 @@ class Shown:
     """Paints states small, one after the other, and holds them to no fault that asks for a report."""
 
     def __init__(self) -> None:
-        self._framing, self._printer = Framing(), SurfacePrinter()
+        self._framing, self._printer, self._panels = Framing(), SurfacePrinter(), Panels()
         self._surface = pygame.Surface(SIZE, 0, 32)
 
     def __call__(self, state: State) -> None:
         assert not [effect.value for effect in state.effects if effect.name == "report"]
         picture = self._framing.fitting(state, SIZE)
-        self._printer.print(self._surface, picture, state.phase, state.clock.speed, overlay(state))
+        self._printer.print(self._surface, picture, state.phase, state.clock.speed, beside(state))
+        self._panels.drawn(state, picture.layout, picture.theme)
 
 
 def sheet(building: Building) -> dict[str, Any]:

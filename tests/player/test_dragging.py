@@ -355,7 +355,7 @@ def test_linkage_chart_list_and_dimensions_follow_the_hand_in_every_frame(player
     anchors = [label.anchor for label in shown.last.names.labels]
     for step in range(1, 8):
         player.mouse(pygame.MOUSEMOTION, (x + 9 * step, y), rel=(9, 0), buttons=(1, 0, 0))
-        picture, panel = shown.last, values_in(shown.over)
+        picture, panel = shown.last, values_in(shown.state)
         assert picture.scene is picture.figure.scene is player.state.scene
         assert picture._chart
         assert picture._chart.panels[0].figure is picture.figure

@@ -16,7 +16,6 @@ from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions, on_the_way
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.ui.shown import overlay
 
 
 def value(state: State, label: str) -> float:
@@ -255,7 +254,7 @@ def test_values_begun_of_a_row_that_a_changed_file_has_no_longer_are_let_go_of(
 
 
 def test_the_list_says_what_the_lengths_make_of_the_linkage(crank: State) -> None:
-    shown = values_in(overlay(crank))
+    shown = values_in(crank)
     assert shown is not None
     assert shown.facts == ("Grashof crank-rocker", "s + l = 150 < p + q = 165")
     assert shown.flash == 0.0
@@ -265,7 +264,7 @@ def test_the_facts_light_up_when_the_class_changes_and_fade(crank: State) -> Non
     state = after(typed(crank, "66"), "accept")
     flashes = []
     for _ in range(FLASH_FRAMES + 1):
-        shown = values_in(overlay(state))
+        shown = values_in(state)
         assert shown is not None
         flashes.append(shown.flash)
         state = advance(state)
@@ -281,7 +280,7 @@ def test_the_same_class_does_not_light_up(crank: State) -> None:
 
 def test_a_list_shows_what_is_typed_and_what_waits(crank: State) -> None:
     state = after(crank, Action("type", "9"), Action("pass_on", 1), Action("type", "8"))
-    shown = values_in(overlay(state))
+    shown = values_in(state)
     assert shown is not None
     assert [(row.value, row.draft) for row in shown.rows[:4]] == [
         ("100 mm", False),
@@ -294,7 +293,7 @@ def test_a_list_shows_what_is_typed_and_what_waits(crank: State) -> None:
 
 def test_a_list_shows_ten_digits() -> None:
     gears = typed(after(begin(load("epicyclic-hypocycloid")), "edit", Action("choose", 2)), "-1/3")
-    shown = values_in(overlay(gears))
+    shown = values_in(gears)
     assert shown is not None
     assert shown.rows[2].value == "−0.3333333333"
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import Player
+from shown_lists import lit_in
 
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
@@ -18,7 +19,7 @@ from linkanim.player.clock import COAST_FRAMES, FRAMES_PER_SECOND
 from linkanim.player.state import Grasp, State, begin
 from linkanim.scenes import load
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.panels import is_marked_paused
 
 
 def after(state: State, *actions: Action | str) -> State:
@@ -137,8 +138,8 @@ def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
 
 def test_a_joint_that_is_led_while_another_scene_comes_glows_no_more(player: Player) -> None:
     led = replace(player.state, grasp=Grasp("P", ran=True, trail=(), forward=True))
-    assert overlay(led).glow == "P"
-    assert overlay(replace(led, scene=load("pumpjack"))).glow is None
+    assert lit_in(led) == "P"
+    assert lit_in(replace(led, scene=load("pumpjack"))) is None
 
 
 def test_in_the_window_a_coupler_point_is_dragged_by_the_mouse(player: Player) -> None:
@@ -151,8 +152,8 @@ def test_in_the_window_a_coupler_point_is_dragged_by_the_mouse(player: Player) -
     for at in others:
         player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(1, 0, 0))
     assert player.state.grasp
-    assert player.window.screen.over.glow == "P"
-    assert not player.window.screen.over.paused
+    assert lit_in(player.state) == "P"
+    assert not is_marked_paused(player.state)
     now = player.window.screen.pixel(*place(player.state, "P"))
     assert math.dist(now, others[-1]) < 2.0
     player.mouse(pygame.MOUSEBUTTONUP, others[-1], button=1)

@@ -32,6 +32,7 @@ from linkanim.player.tape import Tape
 from linkanim.player.tape_file import write
 from linkanim.scenes import load
 from linkanim.ui import screen
+from linkanim.ui.panels import toast_of
 from linkanim.ui.window import Window
 
 PLAYED = """
@@ -41,7 +42,6 @@ from linkanim.player.tape_file import read
 from linkanim.ui import screen
 from linkanim.ui.pictures import Framing
 from linkanim.player.files import DraftFile
-from linkanim.ui.shown import overlay
 from linkanim.ui.window import Window
 tape, step = read(Path(sys.argv[1])), int(sys.argv[3])
 with screen.opened((160, 90)):
@@ -295,7 +295,7 @@ def test_a_draft_that_a_full_disk_does_not_take_is_kept_when_there_is_room(
         assert player.state.toast
         assert player.state.toast.text == f"{kept}: cannot be written: no space left on device"
         player.tick(4 * SECOND)
-        assert player.window.screen.over.toast is None  # it is said once
+        assert toast_of(player.state) is None  # it is said once
         full(False)
         player.tick(SECOND)
         assert "O2" in kept.read_text()

@@ -6,7 +6,6 @@ import pytest
 
 from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
-from linkanim.picture.panels import help_sheet
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.player.action import Action
@@ -22,6 +21,7 @@ from linkanim.player.keys import (
     help_groups,
 )
 from linkanim.player.modes import KEYS_OF, as_markdown, key_names
+from linkanim.ui.panels import help_sheet
 from linkanim.ui.window import MEANINGS
 
 TABLES: dict[str, Table] = {**{name: one.table for name, one in KEYS_OF.items()}, "play": KEYS}

@@ -15,19 +15,22 @@ import numpy as np
 import pygame
 import pytest
 from playing import SHIFT, Player, bar_cells_in, fake_start, menu_in, the
+from shown_lists import drawn_in
 
 from linkanim.export import json_text
+from linkanim.picture.build_sheet import Head
 from linkanim.picture.constructed import all_steps, shown_at
+from linkanim.picture.drawn import Additions
 from linkanim.picture.layered import LayerView
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.slider import slider_rect
+from linkanim.picture.slider import Slider, slider_rect
 from linkanim.picture.view import Rect
 from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.background import Making
+from linkanim.player.commands import bar
 from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.making import LIFTED, Layering
@@ -39,7 +42,7 @@ from linkanim.scenes.scene import TimeRatioPurpose
 from linkanim.synthesis.guidance import guide
 from linkanim.synthesis.quick_returns import quick_return
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.pictures import beside
 from linkanim.workshop.request import make
 
 
@@ -58,6 +61,11 @@ def text() -> str:
     return made_text("jansen")
 
 
+def is_alone(state: State) -> bool:
+    """Tell whether something is drawn in the linkage's place."""
+    return any(one.alone for one in beside(state).drawn)
+
+
 @pytest.fixture
 def shown(text: str) -> State:
     return after(begin(load("jansen")), "layers", Action("layered", text))
@@ -66,14 +74,14 @@ def shown(text: str) -> State:
 def test_layers_are_asked_for_at_once_and_shown_when_they_are_found(text: str) -> None:
     waiting = after(begin(load("jansen")), "layers")
     assert [effect.name for effect in waiting.effects] == ["layers"]
-    assert (waiting.mode, overlay(waiting).slider) == ("layers", None)
+    assert (waiting.mode, drawn_in(waiting, Slider)) == ("layers", None)
     found = after(waiting, Action("layered", text))
-    over, parts = overlay(found), the(found, Layering).parts
+    slider, head, parts = drawn_in(found, Slider), drawn_in(found, Head), the(found, Layering).parts
     assert parts is not None
-    assert over.slider is not None
-    assert (parts.layers, len(parts.plates), over.slider.at, over.alone) == (3, 8, 0, "bare")
-    assert over.head
-    assert "3 layers on the ground" in over.head.sentence
+    assert slider is not None
+    assert (parts.layers, len(parts.plates), slider.at, is_alone(found)) == (3, 8, 0, True)
+    assert head
+    assert "3 layers on the ground" in head.sentence
 
 
 @pytest.mark.parametrize("name", ["jansen", "press", "scotch-yoke"])
@@ -106,12 +114,12 @@ def box_of(loop: np.ndarray) -> tuple[float, float, float, float]:
 
 def test_what_cannot_be_made_is_said_in_a_sentence() -> None:
     state = after(begin(load("drag-link")), "layers", Action("layered", made_text("drag-link")))
-    over = overlay(state)
-    assert over.head is not None
-    assert over.alone == ""
-    assert over.head.is_warning
-    assert "cannot be made flat" in over.head.sentence
-    assert overlay(state).slider is None
+    head = drawn_in(state, Head)
+    assert head is not None
+    assert not is_alone(state)
+    assert head.is_warning
+    assert "cannot be made flat" in head.sentence
+    assert drawn_in(state, Slider) is None
 
 
 @pytest.mark.parametrize(
@@ -152,13 +160,13 @@ def test_another_scene_has_its_layers_asked_for_and_stays_lifted(shown: State) -
 
 def test_another_scene_is_not_shown_in_the_parts_of_the_one_before(shown: State) -> None:
     other = after(shown, Action("put", 0))
-    over = overlay(other)
-    assert over.head
-    assert over.alone == ""
-    assert over.head.sentence.startswith(other.scene.title)
-    assert over.slider is None
+    head = drawn_in(other, Head)
+    assert head
+    assert not is_alone(other)
+    assert head.sentence.startswith(other.scene.title)
+    assert drawn_in(other, Slider) is None
     picture = Picture(other.scene, (320, 180), Look(hud=False))
-    assert list(picture.groups(other.scene.pose(0.0), over))
+    assert list(picture.groups(other.scene.pose(0.0), beside(other)))
 
 
 @pytest.mark.parametrize("name", ["edit", "pencil", "build"])
@@ -326,9 +334,9 @@ def test_the_construction_is_drawn_step_by_step_and_goes_after_the_last(guided: 
     assert count >= 6 + 5
     for _ in range(count + 1):
         state = after(state, Action("construct", 1))
-        seen.append(overlay(state).construction)
+        seen.append(beside(state).steps)
     assert seen == [*range(1, count + 1), 0]
-    assert overlay(after(guided, Action("construct", -1))).construction == count
+    assert beside(after(guided, Action("construct", -1))).steps == count
 
 
 @pytest.fixture
@@ -349,12 +357,8 @@ def kind_of(player: Player) -> tuple[str, int]:
 def click(player: Player, icon: str) -> None:
     """Click the button of the bar with an icon."""
     player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
-    over = player.window.screen.over
-    assert over.bar
-    cells = bar_cells_in(player.window.screen)
-    (at,) = (
-        cell.middle for cell, one in zip(cells, over.bar.buttons, strict=True) if one.icon == icon and cell
-    )
+    cells, buttons = bar_cells_in(player.window.screen), bar(player.state)
+    (at,) = (cell.middle for cell, one in zip(cells, buttons, strict=True) if one.icon == icon and cell)
     player.mouse(pygame.MOUSEMOTION, (at.real, at.imag), rel=(0, 0), buttons=(0, 0, 0))
     player.drag((at.real, at.imag))
 
@@ -412,7 +416,7 @@ def test_a_menu_of_what_it_is_about_has_each_construction(large: Player, what: s
 
 def test_the_construction_of_another_scene_is_not_drawn(guided: State) -> None:
     state = after(guided, Action("construct", 2), Action("mechanism", 1))
-    assert overlay(state).construction == 0
+    assert beside(state).steps == 0
     told = after(begin(load("press")), Action("construct", 1))
     assert told.toast is not None
     assert "has no construction" in told.toast.text
@@ -421,13 +425,13 @@ def test_the_construction_of_another_scene_is_not_drawn(guided: State) -> None:
 def test_a_tape_has_the_steps_of_a_construction(guided: State) -> None:
     state = after(guided, Action("construct", 3))
     begun = Taping(state, (640, 360)).tape(state.frame).begun
-    assert overlay(begun).construction == 3
+    assert beside(begun).steps == 3
 
 
 def test_the_picture_says_what_is_done_in_a_step(guided: State) -> None:
     scene = guided.scene
     picture = Picture(scene, (640, 360), Look(hud=False))
-    groups = picture.groups(scene.pose(0.0), Overlay(construction=3))
+    groups = picture.groups(scene.pose(0.0), Additions(steps=3))
     said = [line.text for group in groups for line in group.captions]
     assert any("midperpendiculars" in line for line in said)
     assert any(line.startswith("step 3 of 6") for line in said)
@@ -449,17 +453,17 @@ def returning(request: pytest.FixtureRequest) -> State:
 
 
 def test_a_slider_beside_alts_construction_goes_along_the_family(returning: State) -> None:
-    slider, purpose = overlay(returning).slider, returning.scene.purpose
+    slider, purpose = drawn_in(returning, Slider), returning.scene.purpose
     assert slider is not None
     assert isinstance(purpose, TimeRatioPurpose)
     # without a quick return the longest coupler transmits best
     assert 0 < slider.at <= slider.steps
     for step in (slider.steps // 3, slider.steps, 0):
         returning = after(returning, Action("slide", step))
-        shown, info = overlay(returning), returning.scene.info
-        assert shown.construction == 3
-        assert shown.slider is not None
-        assert shown.slider.at == step
+        shown, info = drawn_in(returning, Slider), returning.scene.info
+        assert beside(returning).steps == 3
+        assert shown is not None
+        assert shown.at == step
         assert (info.time_ratio or 1.0) == pytest.approx(purpose.ratio, abs=1e-9)
         assert info.stroke == pytest.approx(purpose.stroke) if purpose.stroke else True
 
@@ -473,12 +477,12 @@ def test_undo_goes_back_to_where_the_slider_was_taken(returning: State) -> None:
 
 def test_keys_go_along_the_family_in_steps(returning: State) -> None:
     begun = after(returning, Action("slide", 40), "drop")
-    further = overlay(after(begun, Action("dial_on", 2))).slider
+    further = drawn_in(after(begun, Action("dial_on", 2)), Slider)
     assert further is not None
     assert further.at == 42
 
 
 def test_a_scene_of_no_time_ratio_has_no_slider(guided: State) -> None:
     state = after(guided, Action("construct", 2))
-    assert overlay(state).slider is None
+    assert drawn_in(state, Slider) is None
     assert after(state, Action("dial_on", 1)).scene is state.scene

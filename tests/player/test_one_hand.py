@@ -22,13 +22,14 @@ from shown_lists import words_in
 
 from linkanim.build.tools import TOOLS
 from linkanim.picture.layout import tool_cells
-from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
 from linkanim.player import background, record_dialog
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
+from linkanim.player.browsing import grid as shelf_grid
+from linkanim.player.commands import bar
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
@@ -82,10 +83,10 @@ class Pointing(Hand):
     def cell(self, name: str) -> tuple[float, float, float]:
         """Return the middle of a button, and its width; the bar is brought back where it has faded."""
         shown = self.player.window.screen
-        if shown.over.bar is None:
+        if bar(shown.state) is None:
             self.wake((shown.size[0] / 2, shown.size[1] - 30.0))
-        assert shown.over.bar
-        buttons = shown.over.bar.buttons
+        assert bar(shown.state)
+        buttons = bar(shown.state)
         number = next(n for n, one in enumerate(buttons) if one.name.startswith(name))
         cell = bar_cells_in(shown)[number]
         assert cell
@@ -97,8 +98,8 @@ class Pointing(Hand):
     def row(self, words: str) -> None:
         """Take the row of the open list that begins so, which is scrolled there if it has to be."""
         shown = self.player.window.screen
-        assert words_in(shown.over)
-        rows_ = words_in(shown.over).rows
+        assert words_in(shown.state)
+        rows_ = words_in(shown.state).rows
         number = next(n for n, one in enumerate(rows_) if one[0].startswith(words))
 
         def rows() -> dict[int, float]:
@@ -120,8 +121,8 @@ class Pointing(Hand):
     def box(self, words: str) -> None:
         """Tick the box of a row of the open list."""
         shown = self.player.window.screen
-        assert words_in(shown.over)
-        number = next(n for n, one in enumerate(words_in(shown.over).rows) if one[0] == words)
+        assert words_in(shown.state)
+        number = next(n for n, one in enumerate(words_in(shown.state).rows) if one[0] == words)
         x = next(float(x) for x in range(60, 2, -1) if shown.on_box(x) and shown.row_at(x, 100) is not None)
         self.drag((x, next(y + 3.0 for y in range(2, 718) if shown.row_at(x, y) == number)))
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pygame
 import pytest
 from playing import CTRL, SHIFT, Player
-from shown_lists import values_in
+from shown_lists import lines_in, values_in
 
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.groups import group_of
@@ -22,7 +22,7 @@ from linkanim.player.tape_file import read, write
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.pictures import beside
 
 WINDOW = (1280, 720)
 
@@ -45,7 +45,7 @@ class Editor(Player):
 
     def row(self, label: str) -> tuple[float, float]:
         """Return the middle of a row of the list, in pixels."""
-        panel = values_in(self.window.screen.over)
+        panel = values_in(self.state)
         assert panel
         number = next(n for n, one in enumerate(panel.rows) if one.label == label)
         return next((60.0, y + 3.0) for y in range(720) if self.window.screen.row_at(60, y) == number)
@@ -114,7 +114,7 @@ def test_the_mode_is_left_at_once_and_the_motion_is_as_it_was(
     )
     editor.tool("spring")
     editor.draw(editor.place("B"), (20, -60))
-    assert overlay(editor.state).drawn
+    assert beside(editor.state).drawn
     if way == "button":
         editor.window.state = after(editor.state, "back")
     else:
@@ -139,7 +139,7 @@ def test_e_on_the_sheet_shows_the_list_and_puts_it_away(editor: Editor) -> None:
         editor.press(pygame.K_e, text="e")
         modes.append(editor.mode)
     assert modes == ["numbers", "build"]
-    panel = values_in(overlay(after(editor.state, "numbers")))
+    panel = values_in(after(editor.state, "numbers"))
     assert panel
     assert [row.label for row in panel.rows][:3] == ["Ground 1", "Crank 2", "Coupler 3"]
     assert panel.facts == ("Grashof crank-rocker", "s + l = 150 < p + q = 165")
@@ -169,7 +169,7 @@ def test_a_value_that_cannot_be_is_refused_on_the_sheet_as_it_is_without(editor:
     for state in (bare, after(bare, "build_on", "numbers")):
         state = after(state, Action("choose", 2 - state.editing.chosen), Action("type", "40"), "accept")
         assert of_label(state, "Coupler 3") == 85
-        panel = values_in(overlay(state))
+        panel = values_in(state)
         assert panel
         told.append(panel.error)
         again = after(state, "accept")
@@ -223,7 +223,7 @@ def test_a_row_is_dragged_on_the_sheet_as_one_step(editor: Editor) -> None:
 def test_what_has_no_row_in_the_list_is_typed_in_its_own(editor: Editor) -> None:
     editor.tool("spring")
     editor.draw(editor.place("B"), (20, -60))
-    assert overlay(editor.state).measured == ()
+    assert lines_in(editor.state) == ()
     editor.type("400")
     editor.press(pygame.K_RETURN)
     (spring,) = editor.state.scene.document["springs"].values()
@@ -231,7 +231,7 @@ def test_what_has_no_row_in_the_list_is_typed_in_its_own(editor: Editor) -> None
     assert editor.sheet.building.draft.of("springs")["spring"]["stiffness"] == "400 N/m"
     editor.press(pygame.K_DOWN)
     editor.type("3")
-    panel = values_in(overlay(editor.state))
+    panel = values_in(editor.state)
     assert panel
     assert [row.value for row in panel.rows if row.chosen] == ["3_"]
 
@@ -244,7 +244,7 @@ def test_what_does_not_move_yet_has_all_its_numbers_in_the_list(editor: Editor) 
     editor.draw((30, 0), (60, 80))
     editor.press(pygame.K_e, text="e")
     assert editor.sheet.building.made.scene is None
-    panel = values_in(overlay(editor.state))
+    panel = values_in(editor.state)
     assert panel
     labels = [row.label for row in panel.rows]
     editor.drag(editor.row(next(one for one in labels if one.startswith("bar A") and "length" in one)))

@@ -27,7 +27,7 @@ from linkanim.scenes import load
 from linkanim.synthesis.answers import EARLIER, NUMBERS, PathAnswer
 from linkanim.synthesis.follower import Reply
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.shelf import answers_of
 
 ROW = (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
 WIDER = (8.0, 9.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)
@@ -509,7 +509,7 @@ def test_a_way_of_two_answers_is_stepped_by_keys_too(answered: State) -> None:
 def test_a_way_of_one_answer_has_no_dial(answered: State) -> None:
     one = after(answered, Action("way", (0.0, *FIRST)))
     assert len(sketch_of(one).way) == 1
-    row = overlay(one).row
+    row = answers_of(one)
     assert row is not None
     assert row.dial is None
     for moved in (("dial_on", 1), ("dial", 1.0)):
@@ -546,7 +546,7 @@ def test_an_answer_taken_beside_the_scene_whose_trace_it_follows_stays_when_othe
     again = after(taken, Action("cards", (0.0, *later)))
     assert sketch_of(again).answer == sketch_of(taken).answer
     assert again.scene == taken.scene
-    row = overlay(again).row
+    row = answers_of(again)
     assert row
     assert row.entries[row.chosen] == sketch_of(taken).answer
 
@@ -560,7 +560,7 @@ OWN, EXACT, COMPACT = (
 
 def _said(state: State) -> list[tuple[str, str]]:
     """Return the words on the cards."""
-    row = overlay(state).row
+    row = answers_of(state)
     assert row
     return [*zip(row.names, row.words, strict=True)]
 
@@ -611,7 +611,7 @@ def test_the_cognate_of_a_cognate_is_the_answer_itself(answered: State) -> None:
 
 def test_a_cognate_leaves_the_dial_where_it_is(fronted: State) -> None:
     rest = after(fronted, Action("dial", 0.5), "let_go")
-    row = overlay(after(rest, Action("cognate", 0))).row
+    row = answers_of(after(rest, Action("cognate", 0)))
     assert row
     assert row.dial
     assert row.dial.value == 0.5

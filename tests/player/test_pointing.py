@@ -14,9 +14,9 @@ from playing import Player, menu_in
 
 from linkanim.picture.board import Board
 from linkanim.picture.figure import figure
+from linkanim.picture.hover import HoverArrows
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.panels import words_at_foot
 from linkanim.picture.picture import Picture
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
@@ -25,8 +25,9 @@ from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.ui import screen
-from linkanim.ui.pointing import Pointed, PointedThing, hover_text, thing_at
-from linkanim.ui.shown import lasting, overlay
+from linkanim.ui.panels import words_at_foot
+from linkanim.ui.pictures import beside, lasting
+from linkanim.ui.pointing import AtMouse, Pointed, PointedThing, hover_words, thing_at
 
 
 def number(text: str) -> float:
@@ -38,9 +39,9 @@ def standing(name: str, phase: float = 1.0, look: Look | None = None) -> State:
 
 
 def lines_of(state: State, thing: PointedThing) -> tuple[str, ...]:
-    found = hover_text(state, Pointed((0.0, 0.0), thing))
+    found = hover_words(state, Pointed((0.0, 0.0), thing))
     assert found
-    return found.lines
+    return found
 
 
 def test_a_joint_tells_its_place_speed_and_acceleration() -> None:
@@ -131,8 +132,9 @@ def test_beside_the_linkage_there_is_nothing() -> None:
 
 def test_it_is_in_no_screenshot() -> None:
     state = standing("crank-rocker")
-    assert overlay(state, pointed=Pointed((0.0, 0.0), PointedThing("joint", "P"))).hover_text
-    assert lasting(state).hover_text is None
+    at_joint = AtMouse(pointed=Pointed((0.0, 0.0), PointedThing("joint", "P")))
+    assert any(isinstance(one, HoverArrows) for one in beside(state, at_joint).drawn)
+    assert not any(isinstance(one, HoverArrows) for one in lasting(state).drawn)
 
 
 @pytest.mark.parametrize(("joint", "count"), [("O2", 0), ("A", 2), ("B", 2)])
@@ -141,16 +143,17 @@ def test_a_joint_has_its_two_arrows_and_its_words_stand_at_the_foot(joint: str, 
     picture = Picture(state.scene, (640, 360), Look(), docked=Docked(bar=True))
     pose, _ = picture.poses(1.0)
     place = pose.position[joint]
-    over = replace(lasting(state), hover_text=hover_text(state, Pointed(place, PointedThing("joint", joint))))
-    (arrows,) = (group for group in picture.groups(pose, over) if group.name == "hover-arrows")
+    at_joint = AtMouse(pointed=Pointed(place, PointedThing("joint", joint)))
+    groups = picture.groups(pose, beside(state, at_joint))
+    (arrows,) = (group for group in groups if group.name == "hover-arrows")
     assert not arrows.captions
     assert len(arrows.layers) == 2 * count  # each on a rim
     for layer in arrows.layers:
         away = np.abs(np.concatenate(layer.loops) - picture.view.pixel(place))
         assert away.min() < 3 * picture.gauge.line
-    assert over.hover_text
-    words, _ = words_at_foot(Board(picture.layout, picture.type, picture.theme), over) or ("", False)
-    assert words.split("   ·   ") == [*over.hover_text.lines]
+    board, state = Board(picture.layout, picture.type, picture.theme), replace(state, chip=None)
+    words, _ = words_at_foot(board, state, at_joint) or ("", False)
+    assert words.split("   ·   ") == [*hover_words(state, at_joint.pointed)]
 
 
 @pytest.fixture
@@ -167,16 +170,21 @@ def move(player: Player, at: tuple[float, float]) -> None:
     player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
 
 
+def instant_in(shown: screen.Screen) -> float | None:
+    """Return the phase at which the mouse points."""
+    return beside(shown.state, shown.mouse).instant
+
+
 def test_the_trace_and_the_chart_point_at_one_instant(player: Player) -> None:
     shown = player.window.screen
     place = player.state.scene.pose(2.5, 0).position["P"]
     move(player, shown.pixel(*place))
-    assert shown.over.instant == pytest.approx(2.5, abs=0.05)
-    assert shown.over.hover_text
-    assert shown.over.hover_text.lines[0].startswith("crank angle 14")
+    assert instant_in(shown) == pytest.approx(2.5, abs=0.05)
+    assert hover_words(shown.state, shown.mouse.pointed)
+    assert hover_words(shown.state, shown.mouse.pointed)[0].startswith("crank angle 14")
     area = shown.last._chart.panels[0].plot.area  # type: ignore[union-attr]
     move(player, (area.x + area.width / 4, area.y + area.height / 2))
-    assert shown.over.instant == pytest.approx(math.pi / 2, abs=0.05)
+    assert instant_in(shown) == pytest.approx(math.pi / 2, abs=0.05)
 
 
 def test_pressed_on_the_trace_its_joint_comes_there(player: Player) -> None:
@@ -191,12 +199,12 @@ def test_pressed_on_the_trace_its_joint_comes_there(player: Player) -> None:
 def test_a_mouse_that_rests_over_what_runs_reads_nothing_more(player: Player) -> None:
     shown = player.window.screen
     move(player, shown.pixel(*player.state.scene.pose(1.0, 0).position["O4"]))
-    assert shown.over.hover_text
+    assert hover_words(shown.state, shown.mouse.pointed)
     player.tick(400)
-    assert shown.over.hover_text  # it stands
+    assert hover_words(shown.state, shown.mouse.pointed)  # it stands
     player.press(pygame.K_SPACE)
     player.tick(2)
-    assert shown.over.hover_text is None
+    assert not hover_words(shown.state, shown.mouse.pointed)
 
 
 @pytest.fixture
@@ -257,8 +265,8 @@ def test_the_class_says_why_it_is_that(here: Path) -> None:
         player.settle()
         at = row_of(player, "")
         player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
-        assert player.window.screen.over.hover_text
-        assert "s + l = 150 < p + q = 165" in player.window.screen.over.hover_text.lines
+        words = hover_words(player.state, player.window.screen.mouse.pointed)
+        assert "s + l = 150 < p + q = 165" in words
         player.drag(at)
         player.tick()
         assert player.state.toast

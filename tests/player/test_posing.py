@@ -9,14 +9,16 @@ from dataclasses import replace
 import numpy as np
 import pygame
 import pytest
-from playing import CTRL, NoSearch, Player
+from playing import CTRL, NoSearch, Player, the
+from shown_lists import drawn_in
 
-from linkanim.picture.overlay import AXIS
+from linkanim.picture.build_sheet import Head
+from linkanim.picture.poses import AXIS
 from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.background import actions_of, request_of
-from linkanim.player.posing import free_joints
+from linkanim.player.posing import Posing, free_joints
 from linkanim.player.state import LARGEST_DIAL, PoseSketch, SetPose, State, begin
 from linkanim.player.tape import Taping, resumed
 from linkanim.scenes import load
@@ -24,7 +26,7 @@ from linkanim.scenes.scene import PosesPurpose
 from linkanim.synthesis.burmester import CentreCurve, Poses
 from linkanim.synthesis.follower import Follower, FollowPoses
 from linkanim.ui import screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.shelf import answers_of
 
 REACH, STEP = 2.0, 0.5
 ROWS = ((0.0, 0.0, 0.0), (40.0, 10.0, 0.6), (70.0, -5.0, 1.4), (85.0, -30.0, 1.9), (60.0, -60.0, 2.4))
@@ -112,7 +114,7 @@ def test_linkages_through_the_poses_are_shown_and_chosen(empty: State, count: in
     for answer in sketch.answers:
         # the coupler's point is the first pose's origin, to the last digits
         assert answer.joints["P"] == pytest.approx(complex(*ROWS[0][:2]), abs=1e-9)
-    row = overlay(state).row
+    row = answers_of(state)
     assert row is not None
     assert all("mm" in words for words in row.words)
 
@@ -256,11 +258,11 @@ def test_the_dial_gives_smaller_links_at_one_end_and_better_angles_at_the_other(
 def test_poses_that_no_linkage_meets_are_told_in_a_sentence(empty: State) -> None:
     twice = (1.0, *ROWS[0], *ROWS[1], *ROWS[0])
     state = answered(after(empty, Action("set_poses", twice)))
-    shown = overlay(state)
-    assert shown.head
-    assert shown.head.is_warning
-    assert "poses 1 and 3 are one" in shown.head.sentence
-    assert shown.alone == "sheet"
+    head = drawn_in(state, Head)
+    assert head
+    assert head.is_warning
+    assert "poses 1 and 3 are one" in head.sentence
+    assert the(state, Posing).alone == "sheet"
     # a change asks again
     assert sketch_of(drawn(state, (0.0, 0.0), (5.0, 5.0))).refusal == ""
 

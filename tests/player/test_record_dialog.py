@@ -206,8 +206,8 @@ def test_what_is_not_ours_stays(player: Player, asked: Asked, here: Path, case: 
     player.press(pygame.K_RETURN)
     assert player.state.of(RecordDialog)
     assert words in dialog(player).refusal
-    assert values_in(player.window.screen.over)
-    assert values_in(player.window.screen.over).error == dialog(player).refusal
+    assert values_in(player.state)
+    assert values_in(player.state).error == dialog(player).refusal
     assert (asked.commands, player.state.recording) == ([], None)
     assert {path: path.read_bytes() for path in here.rglob("*") if path.is_file()} == before
     player.type("-2")
@@ -301,10 +301,8 @@ def test_it_takes_the_place_of_what_is_open(player: Player, before: str) -> None
     player.tick(2)
     player.window.state = advance(player.state, [Action("record_dialog")])
     player.tick(2)
-    over = player.window.screen.over
-    assert values_in(over)
-    assert values_in(over).title == "Record and save"
-    assert (over.shelf, over.help) == (None, None)
+    assert values_in(player.state).title == "Record and save"
+    assert (player.window.screen.shelf, player.state.help) == (None, False)
     player.press(pygame.K_ESCAPE)
     assert player.state.mode == ("edit" if before == "edit" else "play")
 
@@ -314,7 +312,7 @@ def test_in_a_game_there_is_no_period(player: Player) -> None:
     player.press(pygame.K_F3)
     opened(player)
     assert values(player.state)["Length"] == "until it is stopped"
-    assert values_in(player.window.screen.over).title == "Record and save"
+    assert values_in(player.state).title == "Record and save"
     player.press(pygame.K_RETURN)
     assert (player.state.mode, player.state.recording is not None) == ("game", True)
     player.type("g")

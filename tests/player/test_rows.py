@@ -19,7 +19,7 @@ from linkanim.player.tape_file import from_document, to_document
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
 from linkanim.ui import screen as display
-from linkanim.ui.shown import overlay
+from linkanim.ui.panels import panel_of
 
 SIZES = [(320, 180), (640, 360), (1280, 720)]
 
@@ -147,14 +147,14 @@ def test_a_quantity_is_charted_with_a_click(listed: Player) -> None:
     listed.press(pygame.K_ESCAPE)
     listed.press(pygame.K_k)
     listed.tick(12)
-    panel = words_in(overlay(listed.state))
+    panel = words_in(listed.state)
     assert panel
     wheel(listed, row_place(listed, panel.chosen), -2)
     assert listed.state.of(Listing)
     assert the(listed.state, Listing).chosen == panel.chosen + 2
     chosen = the(listed.state, Listing).chosen
     listed.drag(row_place(listed, chosen))
-    assert not overlay(listed.state).listed
+    assert not panel_of(listed.state)
     assert listed.state.look.chart == list(listed.state.scene.telling)[chosen]
 
 
@@ -166,7 +166,7 @@ def test_boxes_chart_several_quantities_below_each_other_and_the_list_stays(list
         x, y = row_place(listed, row)
         listed.drag((x * 0.2, y))
     assert listed.state.look.chart == f"{telling[0]},{telling[1]}"
-    panel = words_in(overlay(listed.state))
+    panel = words_in(listed.state)
     assert panel
     assert panel.boxes[:4] == (True, True, False, False)
     listed.press(pygame.K_RETURN, mod=pygame.KMOD_CTRL)  # the one that is chosen, off again

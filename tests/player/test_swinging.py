@@ -13,7 +13,7 @@ from playing import Player
 
 from linkanim.player.state import SWING_FRAMES, Changeover
 from linkanim.ui import desktop, screen
-from linkanim.ui.shown import overlay
+from linkanim.ui.pictures import beside
 
 Pixels = np.ndarray
 
@@ -34,17 +34,18 @@ def test_the_other_closure_swings_over_and_no_joint_leaps(player: Player) -> Non
     after, places = player.state.scene, []
     assert after is not before
     for _ in range(SWING_FRAMES):
-        swing = overlay(player.state).swing
+        swing = beside(player.state).swing
         assert player.state.phase == phase
         if swing is None:
             break
-        ends = swing.left.pose(phase, 0).position["B"], after.pose(phase, 0).position["B"]
-        places.append(complex(*ends[0]) + swing.share * (complex(*ends[1]) - complex(*ends[0])))
+        left, share = swing
+        ends = left.pose(phase, 0).position["B"], after.pose(phase, 0).position["B"]
+        places.append(complex(*ends[0]) + share * (complex(*ends[1]) - complex(*ends[0])))
         player.tick()
     steps = [abs(b - a) for a, b in pairwise(places)]
     assert SWING_FRAMES - 2 <= len(places) <= SWING_FRAMES
     assert max(steps) < 0.05 * abs(places[-1] - places[0])
-    assert overlay(player.state).swing is None
+    assert beside(player.state).swing is None
     assert player.settle() == player.pixels
 
 
@@ -55,7 +56,7 @@ def test_a_pause_completes_the_swing_and_undo_swings_back(player: Player) -> Non
     assert isinstance(player.state.glide, Changeover)
     player.press(pygame.K_SPACE, text=" ")
     assert player.state.clock.paused
-    assert overlay(player.state).swing is None
+    assert beside(player.state).swing is None
     player.press(pygame.K_z, pygame.KMOD_LCTRL)
     assert isinstance(player.state.glide, Changeover)
 

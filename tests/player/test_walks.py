@@ -16,7 +16,7 @@ from linkanim.play.games import game_of
 from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.commands import menu_of
+from linkanim.player.commands import bar, menu_of
 from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
@@ -118,8 +118,8 @@ def open_list(player: Player) -> None:
     """Open the list of all commands by its button on the bar, which every mode has."""
     player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
     shown = player.window.screen
-    assert shown.over.bar
-    buttons = shown.over.bar.buttons
+    assert bar(shown.state)
+    buttons = bar(shown.state)
     number = next(n for n, one in enumerate(buttons) if one.name == "all commands")
     cell = bar_cells_in(shown)[number]
     assert cell
@@ -154,8 +154,8 @@ def test_every_command_is_reached_by_pointing_alone(player: Player) -> None:
     expected = wanted(player.state)
     open_list(player)
     shown = player.window.screen
-    assert words_in(shown.over)
-    count = len(words_in(shown.over).rows)
+    assert words_in(shown.state)
+    count = len(words_in(shown.state).rows)
     found: dict[int, tuple[Action | None, ...]] = {}
     strip = next((x for x in range(300, 430, 2) if shown.scrolled_to(x, 300, held=False) is not None), None)
     while len(found) < count:

@@ -16,11 +16,11 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, SIZE, Player, fake_start, the
 
-from linkanim.picture.shelf import grid as shelf_grid
 from linkanim.picture.view import Rect
 from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
+from linkanim.player.browsing import grid as shelf_grid
 from linkanim.player.clock import STEP
 from linkanim.player.listing import Listing
 from linkanim.player.naming import Naming
@@ -31,6 +31,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.toml import save
 from linkanim.ui import screen as display
+from linkanim.ui.panels import toast_of
 
 Key = tuple[int, int, str]
 
@@ -463,7 +464,7 @@ def test_ctrl_s_asks_once_for_a_name_and_then_writes_the_same_file(player: Playe
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
     player.press(pygame.K_s, CTRL, "\x13")
-    assert "Save as crank-rocker_" in str(player.window.screen.over.toast)
+    assert "Save as crank-rocker_" in str(toast_of(player.state))
     for letter in "mine":
         player.press(*plain(letter))
     player.press(*bare(pygame.K_RETURN))
@@ -491,7 +492,7 @@ def test_ctrl_shift_s_writes_another_file_and_a_name_that_is_taken_is_refused(
         player.press(*plain(letter))
     player.press(*bare(pygame.K_RETURN))
     player.tick()
-    assert "is there already" in str(player.window.screen.over.toast)
+    assert "is there already" in str(toast_of(player.state))
     player.press(*bare(pygame.K_ESCAPE))
     assert player.state.of(Naming) is None
     assert (here / "crank-rocker.toml").read_text() == "not ours"
@@ -869,6 +870,6 @@ def test_a_message_of_the_window_has_no_marks_of_the_terminal(player: Player, he
         file = here / ("gone.toml" if "gone" in asked else "readme.txt")
         pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(file)))
     player.tick(2)
-    toast = player.window.screen.over.toast
+    toast = toast_of(player.state)
     assert toast
     assert "`" not in toast

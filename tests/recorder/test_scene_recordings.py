@@ -23,7 +23,6 @@ from linkanim.picture.figure import figure
 from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
@@ -38,7 +37,8 @@ from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames, record_tape
 from linkanim.scenes import load, names
-from linkanim.ui.shown import overlay
+from linkanim.ui.panels import Panels
+from linkanim.ui.pictures import recorded
 
 SIZE = (96, 54)
 BARE = Look(hud=False, trace=False)
@@ -116,9 +116,7 @@ def test_a_recording_warns_of_no_limit_unless_it_is_asked_to() -> None:
     plain, noted = (SceneFrames(scene, plan, size, Look(), noted=noted).draw(0) for noted in (False, True))
     assert plain != noted
     surface = offscreen(size)
-    SurfacePrinter().paint(
-        surface, Picture(scene, size, Look()), scene.pose(plan.phase(0), speed=plan.speed), Overlay()
-    )
+    SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(plan.phase(0), speed=plan.speed))
     assert plain == bytes(pixel_view(surface)) == SceneFrames(scene, plan, size, Look()).draw(0)
 
 
@@ -319,10 +317,11 @@ def test_a_recording_shows_the_open_list_and_the_scene_beside_it() -> None:
     done, size = tape((2, Action("chart", 1)), (4, Action("edit")), frames=60), (480, 270)
     state, phase = list(done.pictures(10))[9]
     wanted = offscreen(size)
-    picture = Picture(state.scene, size, state.look, docked=Docked(listed=1))
-    over = replace(overlay(state), hint=None, chip=None, grip=False)
-    assert values_in(over) is not None
-    SurfacePrinter().print(wanted, picture, phase, state.clock.speed, over)
+    picture = Picture(state.scene, size, state.look, docked=Docked(listed=1), noted=True)
+    assert values_in(state) is not None
+    SurfacePrinter().print(wanted, picture, phase, state.clock.speed, recorded(state))
+    (sheet,), _ = Panels().drawn(state, picture.layout, picture.theme, shown="tape")
+    wanted.blit(sheet.surface, sheet.at)
     drawn = TapeFrames(done, 10, size).draw(9), pixel_view(wanted)
     frames = [np.frombuffer(one, np.uint8) for one in drawn]
     found, seen = (frame.reshape(-1, 4)[:, :3] for frame in frames)  # the fourth byte has no meaning

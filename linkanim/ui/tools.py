@@ -10,19 +10,15 @@ from itertools import chain
 import numpy as np
 import pygame
 
-from linkanim.build.tools import TOOLS, Tool
+from linkanim.build.tools import TOOLS
 from linkanim.picture.board import Board
 from linkanim.picture.bodies import pin_stamp
 from linkanim.picture.fittings import Coil, barrel, block_layers, hatched
-from linkanim.picture.items import Target
-from linkanim.picture.layout import Gauge, Layout, tool_cells
+from linkanim.picture.layout import Gauge, tool_cells
 from linkanim.picture.motion_marks import turning_arrow
-from linkanim.picture.overlay import ToolBar
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.shapes import box, directions, disc, lined, rod, segments, slotted, stroke
-from linkanim.picture.text import letters
 from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import Rect
 from linkanim.words import said
 
 _TAKEN = ("tool", "trace_on", "drive_by")
@@ -31,41 +27,18 @@ Icon = Callable[[Gauge, Theme], list[Layer]]
 """Draws an icon about 0, within 10 thin lines each way."""
 
 
-class ToolPrinter:
-    """Paints the bar of tools; the drawn bar, without its tooltip, is cached."""
-
-    def __init__(self) -> None:
-        self._kept: tuple[object, pygame.Surface, tuple[int, int]] | None = None
-        self._type = letters()
-
-    def draw(
-        self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None
-    ) -> list[Target]:
-        """Draw a bar over the picture, and the name of the tool under the mouse; return the tools' places."""
-        if bar is None:
-            return []
-        board, cells = Board(layout, self._type, theme), tool_cells(layout)
-        made_for = layout.size, cells, theme, replace(bar, pointed=None)
-        if self._kept is None or self._kept[0] != made_for:
-            self._kept = made_for, *_bar(board, cells, bar)
-        surface.blit(*self._kept[1:])
-        if bar.pointed is not None:
-            _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed], typed=bar.typed)
-        return [Target("tool", cell, n) for n, cell in enumerate(cells)]
-
-
-def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> tuple[pygame.Surface, tuple[int, int]]:
-    """Return the bar, no larger than its tools, and where its upper left corner is.
+def tool_bar(board: Board, chosen: int) -> tuple[pygame.Surface, tuple[int, int]]:
+    """Return the bar with a tool in hand, no larger than its tools, and where its upper left corner is.
 
     All tools are painted together, which is quicker.
     """
     sheet = pygame.Surface(board.layout.size, pygame.SRCALPHA, 32)
     theme, line = board.theme, max(1.2 * board.layout.unit, 1.0)
     layers: list[Layer] = []
-    for n, (cell, tool) in enumerate(zip(cells, TOOLS, strict=True)):
-        chosen, corner = n == bar.chosen, 0.18 * cell.width
-        rim = theme.velocity if chosen else theme.rule
-        fill = mixed(theme.panel, theme.chosen, 1.0 if chosen else 0.0)
+    for n, (cell, tool) in enumerate(zip(tool_cells(board.layout), TOOLS, strict=True)):
+        is_chosen, corner = n == chosen, 0.18 * cell.width
+        rim = theme.velocity if is_chosen else theme.rule
+        fill = mixed(theme.panel, theme.chosen, 1.0 if is_chosen else 0.0)
         outer, inner = (
             cell.middle + box(cell.width - 2 * by, cell.height - 2 * by, corner) for by in (0.0, line)
         )
@@ -78,9 +51,10 @@ def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> tuple[pygame.Su
     return sheet.subsurface(used).copy(), used.topleft
 
 
-def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool, *, typed: bool) -> None:
-    """Write a tool's name and key beside it."""
-    size = board.layout.small_size
+def tooltip(board: Board, shown: tuple[int, bool]) -> tuple[pygame.Surface, tuple[int, int]]:
+    """Return a tool's name and key, which may need Ctrl, and their place beside it."""
+    (number, typed), size = shown, board.layout.small_size
+    tool, cell = TOOLS[number], tool_cells(board.layout)[number]
     key = f"Ctrl+{tool.key}" if typed and tool.action in _TAKEN else tool.key
     words = f"{said(tool.name)}   {key}".rstrip()
     sheet = board.sheet(board.type.width(words, size) + 1.4 * size, 1.6 * size)
@@ -90,7 +64,7 @@ def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool, *, t
     above = cell.middle.real - sheet.get_width() / 2, cell.y - gap - sheet.get_height()
     x, y = beside if width >= height else above
     x = min(max(x, 2), max(width - sheet.get_width() - 2, 2))
-    surface.blit(sheet, (round(x), round(min(max(y, 2), max(height - sheet.get_height() - 2, 2)))))
+    return sheet, (round(x), round(min(max(y, 2), max(height - sheet.get_height() - 2, 2))))
 
 
 def _bar_icon(gauge: Gauge, theme: Theme) -> list[Layer]:

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from itertools import accumulate
 from typing import NamedTuple
 
 import pygame
 
 from linkanim.picture.board import Board
-from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.items import Target
 from linkanim.picture.layout import HEAD_OF_CHART, Gauge, Layout
-from linkanim.picture.overlay import Button, CommandBar
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
-from linkanim.picture.text import letters
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
+from linkanim.player.commands import Button
+from linkanim.ui.command_icons import COMMAND_ICONS
 
 _GAP, _BETWEEN = 0.06, 0.3
 """The gaps between buttons and between their groups, in sides of a button, as the sizes below."""
@@ -133,45 +131,44 @@ def _rail(cell: Rect) -> tuple[float, float]:
     return cell.x + _WITHIN * cell.height, cell.right - _WITHIN * cell.height
 
 
-class BarPrinter:
-    """Paints the bar; its last drawing is cached, and so is each button in each of its states."""
+Laid = tuple[pygame.Surface, tuple[int, int]]
+"""A sheet, and where its upper left corner is in the window."""
+
+
+class CommandBar:
+    """The bar of commands; each button in each of its states is drawn once."""
 
     def __init__(self) -> None:
-        self._type = letters()
-        self._board: Board | None = None
-        self._kept: tuple[object, list[tuple[Rect, pygame.Surface]], list[Target]] | None = None
+        self._theme: Theme | None = None
         self._faces: dict[_Sized, pygame.Surface] = {}
 
-    def draw(
-        self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None
-    ) -> list[Target]:
-        """Draw the bar over the picture, and return its places; the caption names the pointed command."""
-        if bar is None or not bar.buttons:
-            return []
-        if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
-            before = self._board or Board(layout, self._type, theme)
-            if before.theme != theme:
-                self._faces.clear()
-            self._board, self._kept = replace(before, layout=layout, theme=theme), None
-        if self._kept is None or self._kept[0] != bar[:2]:
-            cells = bar_cells(layout, bar.buttons)
-            frames = [frame for frame, _ in _frames(layout, bar.buttons, cells)]
-            sheets = [(frame, self._drawn(self._board, frame, cells, bar)) for frame in frames]
-            buttons = (Target("button", cell, n) for n, cell in enumerate(cells) if cell)
-            self._kept = bar[:2], sheets, [*(Target("bar", frame) for frame in frames), *buttons]
-        for frame, sheet in self._kept[1]:
-            sheet.set_alpha(round(255 * bar.eighths / 8))
-            surface.blit(sheet, (round(frame.x), round(frame.y)))
-        return self._kept[2]
+    def drawn(
+        self, board: Board, shown: tuple[tuple[Button, ...], int | None]
+    ) -> tuple[list[Laid], list[Target]]:
+        """Return the sheets of the buttons, one of which may be under the mouse, and their places."""
+        buttons, layout = shown[0], board.layout
+        if board.theme != self._theme:
+            self._theme, self._faces = board.theme, {}
+        cells = bar_cells(layout, buttons)
+        frames = [frame for frame, _ in _frames(layout, buttons, cells)]
+        sheets = [
+            (self._sheet(board, frame, cells, shown), (round(frame.x), round(frame.y))) for frame in frames
+        ]
+        places = (Target("button", cell, n) for n, cell in enumerate(cells) if cell)
+        return sheets, [*(Target("bar", frame) for frame in frames), *places]
 
-    def _drawn(
-        self, board: Board, frame: Rect, cells: Sequence[Rect | None], bar: CommandBar
+    def _sheet(
+        self,
+        board: Board,
+        frame: Rect,
+        cells: Sequence[Rect | None],
+        shown: tuple[tuple[Button, ...], int | None],
     ) -> pygame.Surface:
-        sheet = board.sheet(frame.width, frame.height)
+        (buttons, pointed), sheet = shown, board.sheet(frame.width, frame.height)
         seen: list[tuple[Rect, _Sized]] = []
-        for n, (cell, button) in enumerate(zip(cells, bar.buttons, strict=True)):
+        for n, (cell, button) in enumerate(zip(cells, buttons, strict=True)):
             if cell and frame.meets(cell):
-                face = _Face(button.icon, button.on, bool(button.lack), button.share, n == bar.pointed)
+                face = _Face(button.icon, button.on, bool(button.lack), button.share, n == pointed)
                 seen.append((cell, ((round(cell.width), round(cell.height)), face)))
         if len(self._faces) > _MOST_FACES:
             self._faces.clear()

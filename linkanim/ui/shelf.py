@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import groupby
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
@@ -14,17 +13,18 @@ import pygame
 from linkanim.errors import LinkanimError
 from linkanim.picture.board import Board
 from linkanim.picture.items import Target
-from linkanim.picture.layout import Docked, Layout, layout
-from linkanim.picture.look import Look
-from linkanim.picture.overlay import MINE, NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
+from linkanim.picture.layout import Layout, layout
+from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
-from linkanim.picture.slider import draw_dial
+from linkanim.picture.slider import knob_on_track
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Type, hyphened, letters
 from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
+from linkanim.player.browsing import HEADING, NEW, NEW_TITLE, TITLE_LINES, Browsing, Grid, grid
+from linkanim.player.state import AnswerRow, Dial, State
 from linkanim.scenes import load
 from linkanim.scenes.files import opened
 from linkanim.scenes.scene import Scene
@@ -36,166 +36,14 @@ if TYPE_CHECKING:
 
 # The shelf: all mechanisms as small live pictures with their titles, chapter by chapter, over the window.
 
-_SHAPE = 1.6
-"""The width of a picture over its height."""
-_WIDE = (185.0, 100.0)
-"""The least width of a picture, in units and in pixels."""
 _LEAST = 8
 """The least size of a title in pixels; at that size a title without room is cut."""
-_LINES = 2
-"""The most lines of a title, and of the sentence at the foot."""
-_HEADING = 1.2
-"""The size of a heading, in sizes of a title."""
-_TRACK = 1.6
-"""The width of the scroll bar's track, in heights of a title."""
 _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The others that move at each frame, in turns; the chosen picture moves at every second frame."""
 _BESIDE_A_NEW_ONE = 2
 """The number of other pictures that move in a frame in which a new picture is made."""
 _PER_SECOND = 60
-
-
-class Grid(NamedTuple):
-    """The visible part of a shelf: places by the numbers of their mechanisms, headings, words.
-
-    `rows` are all rows of numbers, from top to bottom; the first visible one is numbered `top`. What extends
-    below the `room` is cut off there. The `track` is that of the scroll bar, if not all is visible.
-    """
-
-    cells: dict[int, Rect]
-    headings: tuple[tuple[str, Rect], ...]
-    rows: tuple[tuple[int, ...], ...]
-    top: int
-    room: Rect
-    line: float
-    text: int
-    shape: ShelfRows
-    track: Rect | None = None
-
-    @property
-    def targets(self) -> list[Target]:
-        """Where it can be clicked."""
-        low = self.room.bottom
-        cells = {n: one._replace(height=min(one.bottom, low) - one.y) for n, one in self.cells.items()}
-        tracks = [Target("shelf-track", self.track)] if self.track else []
-        return [
-            Target("shelf", self.room, self),
-            *(Target("entry", one, n) for n, one in cells.items()),
-            *tracks,
-        ]
-
-    def scrolled(self, rows: int) -> Grid:
-        """Return the grid so many rows further down, as far as there are any."""
-        row = min(max(self.top + rows, 0), max(len(self.rows) - 1, 0))
-        return self.shape.showing(row, row)
-
-    def neighbour(self, number: int, rows: int) -> int:
-        """Return the mechanism nearest to a place, `rows` further down; the first row follows the last.
-
-        The same place where there are no rows.
-        """
-        if not self.rows:
-            return number
-        here = next((n for n, row in enumerate(self.rows) if number in row), 0)
-        row = self.rows[(here + rows) % len(self.rows)]
-        return row[min(self.rows[here].index(number), len(row) - 1)] if number in self.rows[here] else row[0]
-
-    @property
-    def seen(self) -> range:
-        """The visible rows, at least one of them as a whole."""
-        last = next((n for n in range(self.top, len(self.rows)) if not self.whole(self.rows[n][0])), None)
-        return range(self.top, max(len(self.rows) if last is None else last, self.top + 1))
-
-    @property
-    def step(self) -> float:
-        """The step from row to row, in pixels."""
-        tops = sorted({cell.y for cell in self.cells.values()})
-        return max(tops[1] - tops[0] if len(tops) > 1 else self.room.height, 1.0)
-
-    def led_to(self, y: float) -> int:
-        """Return which row is the first visible one when the knob's middle is dragged to a pixel's y."""
-        track, count = self.track or self.room, len(self.rows)
-        share = (y - track.y) / max(track.height, 1.0)
-        return min(max(round(share * count - len(self.seen) / 2), 0), max(count - 1, 0))
-
-    def whole(self, number: int) -> bool:
-        """Return whether a mechanism's place is visible from top to bottom."""
-        return number in self.cells and self.cells[number].bottom <= self.room.bottom + 1
-
-
-def grid(size: tuple[int, int], browsing: Browsing) -> Grid:
-    """Return where a shelf's mechanisms stand, scrolled so that the chosen one is visible."""
-    shape = ShelfRows(size, browsing)
-    chosen = next((n for n, row in enumerate(shape.rows) if browsing.chosen in row), 0)
-    return shape.showing(browsing.top, chosen)
-
-
-class ShelfRows:
-    """The sizes of things on a shelf, and which mechanisms are in each row."""
-
-    def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:
-        parts = layout(size, docked=Docked(bar=True))
-        unit = parts.unit
-        self.text = max(round(15.0 * unit), 11)
-        edge = max(14.0 * unit, 4.0)
-        strip = _TRACK * self.text
-        wide, high = (max(side, 1.0) for side in (size[0] - edge - strip, parts.above_bar - 5.4 * self.text))
-        self._room = Rect(edge, 2.4 * self.text, wide, high)
-        self._track = Rect(self._room.right, self._room.y, strip, high)
-        self._gap, least = max(12.0 * unit, 4.0), max(_WIDE[0] * unit, _WIDE[1])
-        columns = max(int((size[0] - 2 * edge + self._gap) / (least + self._gap)), 1)
-        self._wide = (self._room.width - (columns - 1) * self._gap) / columns
-        self.line = (1.2 * _LINES + 0.3) * self.text
-        groups = [
-            (name, [*members]) for name, members in groupby(browsing.matches, lambda n: _chapter(browsing, n))
-        ]
-        self._heads = [name for name, members in groups for _ in range(ceil(len(members) / columns))]
-        self.rows = tuple(
-            tuple(members[n : n + columns]) for _, members in groups for n in range(0, len(members), columns)
-        )
-
-    def showing(self, top: int, row: int) -> Grid:
-        """Return the grid with the row `top` at its top, or another so that a row is visible as a whole.
-
-        It is scrolled at most until the last row stands at the foot.
-        """
-        last = len(self.rows) - 1
-        top = min(max(top, 0), row, max(last, 0))
-        while top < row and not self.grid(top).whole(self.rows[row][0]):
-            top += 1
-        while top > 0 and self.grid(top - 1).whole(self.rows[last][0]):
-            top -= 1
-        return self.grid(top)
-
-    def grid(self, top: int) -> Grid:
-        """Return the grid with a row at its top, below the name of its chapter."""
-        cells: dict[int, Rect] = {}
-        heads = []
-        y, high, head = self._room.y, self._wide / _SHAPE + self.line, 1.5 * _HEADING * self.text
-        for n in range(top, len(self.rows)):
-            if n == top or self._heads[n] != self._heads[n - 1]:
-                heads.append((self._heads[n], Rect(self._room.x, y, self._room.width, head)))
-                y += head
-            if y >= self._room.bottom:
-                break
-            for column, place in enumerate(self.rows[n]):
-                x = self._room.x + column * (self._wide + self._gap)
-                cells[place] = Rect(x, y, self._wide, high)
-            y += high + self._gap
-        seen = tuple(one for one in heads if one[1].bottom <= self._room.bottom)
-        grid = Grid(cells, seen, self.rows, top, self._room, self.line, self.text, self)
-        return grid if len(grid.seen) >= len(self.rows) else grid._replace(track=self._track)
-
-
-def _chapter(browsing: Browsing, number: int) -> str:
-    """Return what stands over a mechanism: its chapter, in capitals where it begins."""
-    if number == NEW:  # the empty sheet stands first in the first chapter
-        return next((_chapter(browsing, n) for n in browsing.matches if n != NEW), said(MINE))
-    if browsing.file_at(number):
-        return said(MINE)
-    name = browsing.texts(number)[2] or said("opened")
-    return name[:1].upper() + name[1:]
 
 
 class Live:
@@ -229,25 +77,36 @@ class ShelfPrinter:
         self._made_for = self._still = None
         self._live, self._unread, self._read = {}, set(), None
 
-    def draw(self, surface: pygame.Surface, shelf: Shelf) -> list[Target]:
-        """Draw the shelf instead of the picture, and return its places.
+    def draw(
+        self,
+        surface: pygame.Surface,
+        shelf: Browsing,
+        frame: int,
+        theme: ThemeName,
+        *,
+        still: bool = False,
+        edited: frozenset[int] = frozenset(),
+    ) -> list[Target]:
+        """Draw the shelf instead of the picture, so many frames after it was opened; return its places.
 
-        Each frame after the first adds one mechanism.
+        Each frame after the first adds one mechanism. The pictures rest while `still`; those at the places
+        `edited` differ from their files.
         """
         size = surface.get_size()
-        made_for = size, shelf.theme, shelf.browsing.entries, shelf.browsing.own
+        made_for = size, theme, shelf.entries, shelf.own
         opens = self._made_for != made_for
         if opens:
             self.close()
             self._made_for = made_for
-        board, cells = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
-        shown = (cells.top, shelf.browsing.matches, shelf.browsing.typed)
+        board, cells = Board(layout(size), self._type, theme_of(theme)), grid(size, shelf)
+        shown = (cells.top, shelf.matches, shelf.typed)
         if self._still is None or self._still[0] != shown:
-            self._still = shown, _still(size, board, cells, shelf.browsing)
+            self._still = shown, _still(size, board, cells, shelf)
         surface.blit(self._still[1], (0, 0))
-        others = _AT_ONCE if opens else self._join(cells, shelf)
-        for n in _due(self._live, cells, shelf, others):
-            self._live[n].go(_turn(shelf, n, len(cells.cells)))
+        others = _AT_ONCE if opens else self._join(cells, shelf, theme)
+        turns = _turns(shelf, cells, frame, still=still)
+        for n in _due(self._live, turns, shelf, frame, others):
+            self._live[n].go(turns[n])
         surface.set_clip(pygame.Rect(0, 0, size[0], int(cells.room.bottom)))
         for n, cell in cells.cells.items():
             live = self._live.get(n)
@@ -263,26 +122,26 @@ class ShelfPrinter:
                     colour=board.theme.warning,
                     anchor="centre",
                 )
-            _mark(surface, board, cell, chosen=n == shelf.browsing.chosen, edited=n in shelf.edited)
+            _mark(surface, board, cell, chosen=n == shelf.chosen, edited=n in edited)
         surface.set_clip(None)
-        _foot(surface, board, cells, shelf, self._live.get(shelf.browsing.chosen))
+        _foot(surface, board, cells, shelf, self._live.get(shelf.chosen))
         return cells.targets
 
-    def _join(self, cells: Grid, shelf: Shelf) -> int:
+    def _join(self, cells: Grid, shelf: Browsing, theme: ThemeName) -> int:
         """Read the next visible mechanism, the chosen one first, or make the picture of the one just read.
 
         A file that is no scene has no picture. Returns how many others may move in the rest of this frame:
         reading a mechanism may take all of it.
         """
-        order = sorted(cells.cells, key=lambda n: n != shelf.browsing.chosen)
+        order = sorted(cells.cells, key=lambda n: n != shelf.chosen)
         n = next((n for n in order if n not in self._live and n not in self._unread and n != NEW), None)
         if n is None:
             return _AT_ONCE
-        cell, file = cells.cells[n], shelf.browsing.file_at(n)
+        cell, file = cells.cells[n], shelf.file_at(n)
         size = round(cell.width), round(cell.height - cells.line)
-        look = Look(theme=shelf.theme, hud=False, background=False)
+        look = Look(theme=theme, hud=False, background=False)
         try:
-            entry = file.name if file else shelf.browsing.entries[n]
+            entry = file.name if file else shelf.entries[n]
             if self._read is None or self._read[0] != n:
                 self._read = n, _entered(entry, is_file=file is not None)
                 return 0
@@ -299,25 +158,26 @@ def _entered(entry: str | Scene, *, is_file: bool) -> Scene:
     return opened(Path(entry))[0] if is_file else load(entry)
 
 
-def _due(live: dict[int, Live], cells: Grid, shelf: Shelf, others: int) -> list[int]:
+def _due(live: dict[int, Live], turns: dict[int, int], shelf: Browsing, frame: int, others: int) -> list[int]:
     """Return the places to be painted at this frame: the chosen one, new ones, and `others` whose turn it is.
 
     Where no others may move, the chosen one does not either.
     """
     if not others:
         return []
-    seen = [n for n in cells.cells if n in live]
-    first = shelf.frame * _AT_ONCE % max(len(seen), 1)
+    seen = [n for n in turns if n in live]
+    first = frame * _AT_ONCE % max(len(seen), 1)
     order = seen[first:] + seen[:first]
-    stale = [n for n in order if live[n].turn != _turn(shelf, n, len(cells.cells))]
-    at_once = [n for n in stale if n == shelf.browsing.chosen or live[n].printed is None]
+    stale = [n for n in order if live[n].turn != turns[n]]
+    at_once = [n for n in stale if n == shelf.chosen or live[n].printed is None]
     return at_once + [n for n in stale if n not in at_once][:others]
 
 
-def _turn(shelf: Shelf, n: int, count: int) -> int:
-    """Return the frame that a place's picture shows: the places in sight take turns in moving on."""
-    turns = _CHOSEN_TURNS if n == shelf.browsing.chosen else ceil(count / _AT_ONCE)
-    return 0 if shelf.still else max((shelf.frame - n) // turns * turns, 0)
+def _turns(shelf: Browsing, cells: Grid, frame: int, *, still: bool) -> dict[int, int]:
+    """Return the frame that each place's picture shows: the places in sight take turns in moving on."""
+    usual = ceil(len(cells.cells) / _AT_ONCE)
+    every = {n: _CHOSEN_TURNS if n == shelf.chosen else usual for n in cells.cells}
+    return {n: 0 if still else max((frame - n) // turns * turns, 0) for n, turns in every.items()}
 
 
 def _still(size: tuple[int, int], board: Board, cells: Grid, browsing: Browsing) -> pygame.Surface:
@@ -336,7 +196,7 @@ def _still(size: tuple[int, int], board: Board, cells: Grid, browsing: Browsing)
     if not browsing.matches:
         board.write(still, browsing.nothing, (x, cells.room.y), size=text, colour=board.theme.warning)
     for name, at in cells.headings:
-        board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
+        board.write(still, name, (at.x, at.y), size=round(HEADING * text), strong=True)
     width = max(1.5 * board.layout.unit, 1.0)
     outer, inner = ([frame_of(cell, board, by) for cell in cells.cells.values()] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
@@ -386,7 +246,7 @@ def _title(
         board.write(surface, below, at_foot, size=size, colour=board.theme.dim, anchor="centre")
         return
     lines, size = titled(board, title, cells.text, room)
-    top = cell.bottom - cells.line + (0.1 + 0.6 * (_LINES - len(lines))) * cells.text
+    top = cell.bottom - cells.line + (0.1 + 0.6 * (TITLE_LINES - len(lines))) * cells.text
     for n, line in enumerate(lines):
         at = (cell.x + cell.width / 2, top + 1.15 * cells.text * n + (cells.text - size) / 2)
         board.write(surface, line, at, size=size, anchor="centre")
@@ -400,7 +260,7 @@ def titled(board: Board, title: str, text: int, room: float) -> tuple[list[str],
     for size in range(text, _LEAST - 1, -1):
         lines = board.type.wrapped(title, size, room)
         parts = (part for word in title.split() for part in hyphened(word))
-        if len(lines) <= _LINES and board.widest(parts, size) <= room:
+        if len(lines) <= TITLE_LINES and board.widest(parts, size) <= room:
             return lines, size
     first, *rest = board.type.wrapped(title, _LEAST, room)
     return [first, *([_cut(board, " ".join(rest), room)] if rest else [])], _LEAST
@@ -424,16 +284,16 @@ def _mark(surface: pygame.Surface, board: Board, cell: Rect, *, chosen: bool, ed
         paint(surface, [Layer(ORANGE, [middle + disc(reach)])])
 
 
-def _foot(surface: pygame.Surface, board: Board, cells: Grid, shelf: Shelf, live: Live | None) -> None:
+def _foot(surface: pygame.Surface, board: Board, cells: Grid, shelf: Browsing, live: Live | None) -> None:
     """Write what to watch for of the chosen mechanism at the foot, in two lines at the most."""
-    if live is None or shelf.browsing.chosen not in shelf.browsing.matches:
+    if live is None or shelf.chosen not in shelf.matches:
         return
     text, room = cells.text, cells.room
     for size in range(text, _LEAST - 1, -1):
         lines = board.type.wrapped(said(live.picture.scene.look_at), size, room.width)
-        if len(lines) <= _LINES:
+        if len(lines) <= TITLE_LINES:
             break
-    for n, line in enumerate(lines[:_LINES]):
+    for n, line in enumerate(lines[:TITLE_LINES]):
         at = (room.x + room.width / 2, room.bottom + (0.35 + 1.2 * n) * text)
         board.write(surface, line, at, size=size, colour=board.theme.dim, anchor="centre")
 
@@ -466,6 +326,11 @@ def row_cells(layout: Layout, count: int) -> tuple[Rect, ...]:
     return tuple(Rect(left + n * (wide + gap), room.y, wide, room.height) for n in range(count))
 
 
+def answers_of(state: State) -> AnswerRow | None:
+    """Return the row of answers that a sketch has."""
+    return next((row for one in state.modes if (row := one.answer_row(state))), None)
+
+
 class RowPrinter:
     """Paints rows; each frame makes one more picture, or all `at_once`; they are kept with their answers."""
 
@@ -475,39 +340,43 @@ class RowPrinter:
         self._still: tuple[object, pygame.Surface] | None = None
         self._type: Type | None = None
 
-    def draw(self, surface: pygame.Surface, layout: Layout, row: AnswerRow | None) -> list[Target]:
+    def draw(
+        self, surface: pygame.Surface, layout: Layout, row: AnswerRow | None, frame: int, theme: ThemeName
+    ) -> list[Target]:
         """Draw a row over the picture's foot, and return its places; without a row, forget the last one."""
         if row is None or layout.row is None:
             self._live.clear()
             return []
         self._type = self._type or letters()
-        board, cells = Board(layout, self._type, theme_of(row.theme)), row_cells(layout, len(row.entries))
+        board, cells = Board(layout, self._type, theme_of(theme)), row_cells(layout, len(row.entries))
         targets = [Target("answer", cell, n) for n, cell in enumerate(cells)]
         if row.dial and layout.dial:
             targets.append(draw_dial(surface, board, layout.dial, row.dial))
-        kind = layout.size, row.theme, row.names, row.words, row.chosen
+        kind = layout.size, theme, row.names, row.words, row.chosen
         if self._still is None or self._still[0] != kind:
             self._still = kind, _still_answers(board, layout.row, cells, row)
         surface.blit(self._still[1], (round(layout.row.x), round(layout.row.y)))
-        for live, cell in self._pictures(row, cells, _lines(row) * layout.small_size):
+        for live, cell in self._pictures(row, cells, _lines(row) * layout.small_size, frame, theme):
             assert live.printed
             surface.blit(live.printed, (round(cell.x), round(cell.y)))
         return targets
 
-    def _pictures(self, row: AnswerRow, cells: tuple[Rect, ...], line: float) -> Iterator[tuple[Live, Rect]]:
+    def _pictures(
+        self, row: AnswerRow, cells: tuple[Rect, ...], line: float, frame: int, theme: ThemeName
+    ) -> Iterator[tuple[Live, Rect]]:
         """Yield the pictures of this frame with their places; of those that are missing, make one."""
         making = True
         for n, (entry, cell) in enumerate(zip(row.entries, cells, strict=True)):
             size = round(cell.width), round(cell.height - line)
-            made_for = entry, size, row.theme
+            made_for = entry, size, theme
             missing = n not in self._live or self._live[n][0] != made_for
             if missing and making and min(size) >= _SMALLEST:
-                look = Look(theme=row.theme, hud=False, background=False)
+                look = Look(theme=theme, hud=False, background=False)
                 self._live[n] = made_for, Live(Picture(_scene(entry, row), size, look))
                 making, missing = self._at_once, False
             if not missing:
                 live = self._live[n][1]
-                turn = 0 if row.still else max((row.frame - n) // _TURNS * _TURNS, 0)
+                turn = 0 if row.still else max((frame - n) // _TURNS * _TURNS, 0)
                 if live.printed is None or (live.turn != turn and not row.still):
                     live.go(turn)
                 yield live, cell
@@ -545,3 +414,32 @@ def _scene(entry: PathAnswer | PoseAnswer | Scene, row: AnswerRow) -> Scene:
     if isinstance(entry, Scene):
         return entry
     return entry.scene(row.unit, row.poses) if row.poses else entry.scene(row.unit)  # type: ignore[call-arg, arg-type]
+
+
+_DIAL = 0.34
+"""The width of a dial's track, as a share of its room."""
+_BESIDE = 0.5
+"""How far beyond its track's ends a dial can still be grasped, in heights of its room."""
+
+
+def dial_track(room: Rect) -> Rect:
+    """Return where the track of a dial runs, in the middle of its room."""
+    wide = _DIAL * room.width
+    return Rect(room.x + (room.width - wide) / 2, room.y, wide, room.height)
+
+
+def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: Dial) -> Target:
+    """Draw a dial in its room, its words beside the ends of the track; return where it can be grasped."""
+    rail, size, unit = dial_track(room), board.layout.small_size, board.layout.unit
+    row, line, radius = rail.y + rail.height / 2, max(1.6 * unit, 1.0), 0.5 * size
+    marks = [complex(rail.x + at * rail.width, row) + box(2 * line, 0.6 * size) for at in dial.marks]
+    filled = board.theme.velocity if dial.held else board.theme.background
+    knob_and_track = knob_on_track(
+        complex(rail.x, row), rail.width, dial.value, radius, line, board.theme, filled
+    )
+    paint(surface, [Layer(board.theme.rule, marks), *knob_and_track])
+    top, gap, dim = row - 0.65 * size, radius + 0.7 * size, board.theme.dim
+    board.write(surface, dial.low, (rail.x - gap, top), size=size, colour=dim, anchor="right")
+    board.write(surface, dial.high, (rail.right + gap, top), size=size, colour=dim)
+    reach = _BESIDE * room.height
+    return Target("dial", rail._replace(x=rail.x - reach, width=rail.width + 2 * reach), rail)

@@ -14,7 +14,7 @@ from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import arrows, box, directions, disc, segments, stroke
 from linkanim.picture.theme import DARK, GREEN, ORANGE, SKY, Theme, mixed
-from linkanim.picture.tools import ICONS, Icon
+from linkanim.ui.tools import ICONS, Icon
 
 _THIN = 1.7
 """The width of a line, in thin lines of the gauge, as all sizes below."""
