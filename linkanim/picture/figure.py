@@ -231,16 +231,9 @@ class Figure:
         return np.asarray(_STILL * nearest, np.float64)
 
     @cached_property
-    def polygon_boxes(self) -> tuple[Box, Box]:
-        """The boxes, about the pole, of the cycle's velocity and acceleration polygons at its own speed."""
-        return self.polygon_box(self.cycle, 1), self.polygon_box(self.cycle, 2)
-
-    def polygon_box(self, motion: Motion | Pose, order: Order) -> Box:
-        """Return the box, about the pole, of a motion's polygons of an order."""
-        ends = np.concatenate([np.atleast_1d(side.end) for side in self.polygon_sides(motion, order)])
-        ends = np.append(ends[np.isfinite(ends)], 0.0)
-        x, y = ends.real, ends.imag
-        return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+    def cycle_sides(self) -> tuple[list[Side], list[Side]]:
+        """The vectors of the cycle's velocity and acceleration polygons at its own speed."""
+        return self.polygon_sides(self.cycle, 1), self.polygon_sides(self.cycle, 2)
 
     def polygon_sides(self, motion: Motion | Pose, order: Order) -> list[Side]:
         """Return the vectors of a motion's polygon, including those of traced coupler points."""

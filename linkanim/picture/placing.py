@@ -67,50 +67,33 @@ class Alternatives(NamedTuple):
         )
 
 
-class _LabelSweep(NamedTuple):
-    """The rectangle that holds a label in all its places, and the lines drawn with it, at each moment."""
+def _swept(label: Alternatives) -> Floats:
+    """Return the rectangle that holds a label in all its places, and the lines drawn with it.
 
-    left: Floats
-    right: Floats
-    top: Floats
-    bottom: Floats
+    Its edges (left, right, top, bottom; n moments; 1).
+    """
+    (wide, high), places = label.size, label.places
+    x, y = places.real, places.imag
+    left, right = x.min(axis=1) - wide / 2, x.max(axis=1) + wide / 2
+    top, bottom = y.min(axis=1) - high / 2, y.max(axis=1) + high / 2
+    if label.lines is not None:
+        x, y = (part.reshape(len(part), -1) for part in (label.lines.real, label.lines.imag))
+        left, right = np.minimum(left, x.min(axis=1)), np.maximum(right, x.max(axis=1))
+        top, bottom = np.minimum(top, y.min(axis=1)), np.maximum(bottom, y.max(axis=1))
+    return np.stack([left, right, top, bottom])[:, :, None]
 
-    @classmethod
-    def by(cls, label: Alternatives) -> _LabelSweep:
-        """Return that of a label, each edge as (n, 1)."""
-        (wide, high), places = label.size, label.places
-        x, y = places.real, places.imag
-        left, right = x.min(axis=1) - wide / 2, x.max(axis=1) + wide / 2
-        top, bottom = y.min(axis=1) - high / 2, y.max(axis=1) + high / 2
-        if label.lines is not None:
-            x, y = (part.reshape(len(part), -1) for part in (label.lines.real, label.lines.imag))
-            left, right = np.minimum(left, x.min(axis=1)), np.maximum(right, x.max(axis=1))
-            top, bottom = np.minimum(top, y.min(axis=1)), np.maximum(bottom, y.max(axis=1))
-        return cls(*(edge[:, None] for edge in (left, right, top, bottom)))
 
-    def passes(self, points: Loop, radii: Floats) -> Bools:
-        """Return which discs about points (n, m) it meets at any moment."""
-        return self._meets(points.real, points.real, points.imag, points.imag, radii)
+def _bounds(lines: Loop) -> Floats:
+    """Return the edges (left, right, top, bottom; n moments; m) of lines (n, m, begin and end)."""
+    x, y = lines.real, lines.imag
+    return np.stack([x.min(axis=2), x.max(axis=2), y.min(axis=2), y.max(axis=2)])
 
-    def meets(self, lines: Loop, halves: Floats) -> Bools:
-        """Return which thick lines (n, m, 2) may meet it at any moment."""
-        one, other = lines[..., 0], lines[..., 1]
-        left, right = np.minimum(one.real, other.real), np.maximum(one.real, other.real)
-        return self._meets(
-            left, right, np.minimum(one.imag, other.imag), np.maximum(one.imag, other.imag), halves
-        )
 
-    def met_by(self, other: _LabelSweep, margin: float) -> bool:
-        """Return whether another rectangle ever comes nearer to it than a margin."""
-        meets = (other.right + margin > self.left) & (other.left - margin < self.right)
-        meets &= (other.bottom + margin > self.top) & (other.top - margin < self.bottom)
-        return bool(meets.any())
-
-    def _meets(self, left: Floats, right: Floats, top: Floats, bottom: Floats, more: Floats) -> Bools:
-        more = more + 1.0
-        meets = (right + more > self.left) & (left - more < self.right)
-        meets &= (bottom + more > self.top) & (top - more < self.bottom)
-        return np.asarray(meets.any(axis=0))
+def _meet(one: Floats, others: Floats, margin: Floats | float) -> Bools:
+    """Return which of some rectangles (m,) ever come nearer to one than a margin, by their edges."""
+    meets = (others[1] + margin > one[0]) & (others[0] - margin < one[1])
+    meets &= (others[3] + margin > one[2]) & (others[2] - margin < one[3])
+    return np.asarray(meets.any(axis=0))
 
 
 class Obstacles(NamedTuple):
@@ -143,7 +126,7 @@ class Weighed(NamedTuple):
     label: Alternatives
     faults: Bools
     price: Floats
-    swept: _LabelSweep
+    swept: Floats
 
     def allowed(self, share: Floats) -> Bools:
         """Return which places have faults in no greater share of the moments than the label bears."""
@@ -158,7 +141,7 @@ class Weighed(NamedTuple):
 
 def weighed(label: Alternatives, ground: Obstacles) -> Weighed:
     """Return a label with what its places cost on the ground."""
-    swept = _LabelSweep.by(label)
+    swept = _swept(label)
     return Weighed(
         label, _faults(label, ground, swept), label.price + _COVERING * _covered(label, ground), swept
     )
@@ -169,19 +152,23 @@ def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
     labels = [one.label for one in known]
     free = [int((~one.faults.any(axis=0)).sum()) for one in known]
     choice: list[int | None] = [None] * len(labels)
-    placed: list[tuple[Alternatives, _LabelSweep]] = []
+    placed = list[Alternatives]()
+    moments = len(labels[0].places) if labels else 0
+    edges, margins = np.empty((4, moments, len(labels))), np.empty(len(labels))
     for n in sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n)):
         label, faults, price, swept = known[n]
-        near = [one for one, other in placed if swept.met_by(other, label.gap + one.size[1])]
-        if near:
-            faults = faults | _hit_by(label, near)
+        count = len(placed)
+        near = np.flatnonzero(_meet(swept, edges[:, :, :count], label.gap + margins[:count]))
+        if near.size:
+            faults = faults | _hit_by(label, [placed[other] for other in near])
         share = _share(label, faults)
         allowed = known[n].allowed(share)
         if not allowed.any():
             continue
         cost = np.where(allowed, price + _FAULTY * share + faults.mean(axis=0), np.inf)
         best = choice[n] = int(cost.argmin())
-        placed.append((label.at(best), _LabelSweep.by(label.at(best))))
+        placed.append(label.at(best))
+        edges[:, :, count : count + 1], margins[count] = _swept(placed[-1]), label.size[1]
     return choice
 
 
@@ -202,7 +189,7 @@ def _share(label: Alternatives, faults: Bools) -> Floats:
     return share
 
 
-def _faults(label: Alternatives, ground: Obstacles, swept: _LabelSweep) -> Bools:
+def _faults(label: Alternatives, ground: Obstacles, swept: Floats) -> Bools:
     """Return where a label's places (n, k) break a rule, without other labels."""
     places, (wide, high) = label.places, label.size
     room = ground.inside
@@ -211,13 +198,14 @@ def _faults(label: Alternatives, ground: Obstacles, swept: _LabelSweep) -> Bools
     out |= (y < room.y + high / 2 - _SURE) | (y > room.bottom - high / 2 + _SURE)
     if label.faults is not None:
         out |= label.faults
-    near = swept.passes(ground.discs, ground.radii)
+    points = np.stack([ground.discs.real, ground.discs.real, ground.discs.imag, ground.discs.imag])
+    near = _meet(swept, points, ground.radii + 1.0)
     discs, radii = ground.discs[:, near], ground.radii[near]
     if discs.size:
         out |= (_off(places, label.size, discs) < radii).any(axis=2)
     if ground.rects.size:
         out |= _overlap(places, label.size, ground.rects, ground.sizes).any(axis=2)
-    near = swept.meets(ground.lines, ground.halves)
+    near = _meet(swept, _bounds(ground.lines), ground.halves + 1.0)
     if near.any():
         out |= crossed(places, label.size, ground.lines[:, near], ground.halves[near]).any(axis=2)
     if label.lines is not None:
@@ -259,7 +247,8 @@ def _covered(label: Alternatives, ground: Obstacles) -> Floats:
         return np.zeros(label.places.shape[1])
     every = max(len(label.places) // _COVERING_MOMENTS, 1)
     places, bars = label.places[::every], ground.bars[::every]
-    near = _LabelSweep.by(label._replace(places=places, lines=None)).meets(bars, ground.thick)
+    swept = _swept(label._replace(places=places, lines=None))
+    near = _meet(swept, _bounds(bars), ground.thick + 1.0)
     covered = crossed(places, label.size, bars[:, near], ground.thick[near])
     return np.asarray(covered.sum(axis=2).mean(axis=0), np.float64)
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.frozen import frozen
-from linkanim.mechanics.motion import Motion, Pose
+from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.polygons import Order, Side, Sort
 from linkanim.picture.anchors import Way, pushed
 from linkanim.picture.chart import Pen
@@ -199,12 +199,20 @@ class Polygon:
     @cached_property
     def _box(self) -> Box:
         """The box of the cycle's polygons about the pole, at the scene's own speed."""
+        ends = np.concatenate([np.atleast_1d(side.end) for side in self._sides])
+        ends = np.append(ends[np.isfinite(ends)], 0.0)
+        x, y = ends.real, ends.imag
+        return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+
+    @cached_property
+    def _sides(self) -> list[Side]:
+        """The vectors of the pose that is shown, or of the whole cycle."""
         scene, pose = self.figure.scene, self.shown
         if self.moment is not None and pose is None:
             pose = scene.pose(self.moment, speed=scene.linkage.drive.speed)
-        if pose:
-            return self.figure.polygon_box(pose, self.order)
-        return self.figure.polygon_boxes[self.order - 1]
+        return (
+            self.figure.polygon_sides(pose, self.order) if pose else self.figure.cycle_sides[self.order - 1]
+        )
 
     def _arrows(self, pose: Pose, pole: complex, scale: float) -> list[Arrow]:
         """Return the arrows in pixels: all that have a length; none at all where one is unbounded."""
@@ -220,19 +228,17 @@ class Polygon:
         return [arrow for arrow in (*whole, *parts) if abs(arrow.reach) > _NOTHING * self._room.width]
 
     def _tracks(
-        self, motion: Motion | Pose, pole: complex, scale: float
+        self, count: int, step: int, pole: complex, scale: float
     ) -> dict[tuple[str, Sort], tuple[Loop, Loop]]:
-        """Return foot and reach of the arrows at the phases of a motion, in pixels, by what they are.
+        """Return foot and reach of the arrows at every which of `count` phases, in pixels, by what they are.
 
         Absolute ones come first. One that is not drawn has its foot far away, and no length.
         """
-        sides = sorted(self.figure.polygon_sides(motion, self.order), key=lambda one: one.sort != "absolute")
-        count = np.size(motion.phase)
         tracks: dict[tuple[str, Sort], tuple[Loop, Loop]] = {}
-        bounded = np.ones(count, np.bool_)
-        for side in sides:
-            begin, end = (np.broadcast_to(one, (count,)) for one in (side.begin, side.end))
-            bounded &= np.isfinite(end)
+        bounded = np.ones(len(range(0, count, step)), np.bool_)
+        for side in sorted(self._sides, key=lambda one: one.sort != "absolute"):
+            begin, end = (np.broadcast_to(one, (count,))[::step] for one in (side.begin, side.end))
+            bounded = bounded & np.isfinite(end)
             foot, reach = pole + scale * np.conj(begin), scale * np.conj(end - begin)
             tracks.setdefault((side.symbol, side.sort), (foot, reach))
         whole = [track for (_, sort), track in tracks.items() if sort == "absolute"]
@@ -294,12 +300,10 @@ class Polygon:
     def _placing(self) -> Placing:
         """Where the symbols stand: chosen for the pose that is shown, or for the cycle."""
         pen, small = self.pen, self.pen.small
-        scene = self.figure.scene
-        speed = scene.linkage.drive.speed
-        motion = self.shown or scene.cycle(_MOMENTS)
-        pole = self.pole(speed)
-        tracks = self._tracks(motion, pole, self.scale(speed))
-        count = np.size(motion.phase)
+        speed = self.figure.linkage.drive.speed
+        pole, phases = self.pole(speed), 1 if self.shown else len(self.figure.cycle.phase)
+        step = max(phases // _MOMENTS, 1)
+        tracks, count = self._tracks(phases, step, pole, self.scale(speed)), len(range(0, phases, step))
         ends = [np.stack([foot, foot + reach], axis=1) for foot, reach in tracks.values()]
         lines = np.stack(ends, axis=1) if ends else np.zeros((count, 0, 2), np.complex128)
         ground = grounded(self._within, [*self._words])
