@@ -85,13 +85,6 @@ def counterweights(linkage: Linkage) -> tuple[Counterweight, ...] | None:
     return tuple(weights)
 
 
-class Shaking(NamedTuple):
-    """The greatest force (N) and moment (N m) of inertia on the ground over a period."""
-
-    force: float
-    moment: float
-
-
 class Shaken(NamedTuple):
     """What inertia does to the ground over a period: phases, the force's size (N), the moment (N m)."""
 
@@ -100,9 +93,9 @@ class Shaken(NamedTuple):
     moment: Array
 
     @property
-    def greatest(self) -> Shaking:
-        """The greatest of both."""
-        return Shaking(float(self.force.max()), float(np.abs(self.moment).max()))
+    def greatest(self) -> tuple[float, float]:
+        """The greatest force, and the greatest moment."""
+        return float(self.force.max()), float(np.abs(self.moment).max())
 
 
 def shaken(linkage: Linkage, speed: float) -> Shaken:
@@ -111,11 +104,6 @@ def shaken(linkage: Linkage, speed: float) -> Shaken:
     solved = mechanism(alone)
     reactions = solved.solve(phase=solved.phases, speed=speed).reactions
     return Shaken(solved.phases, np.hypot(*reactions.ground), np.asarray(reactions.moment))
-
-
-def shaking(linkage: Linkage, speed: float) -> Shaking:
-    """Return the greatest that inertia alone does to the ground at an even speed (rad/s of phase)."""
-    return shaken(linkage, speed).greatest
 
 
 def balanced(linkage: Linkage, weights: tuple[Counterweight, ...]) -> Linkage:

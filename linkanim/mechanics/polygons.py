@@ -45,14 +45,9 @@ class Chain(NamedTuple):
     sides: tuple[Side, ...]
 
 
-class _Turning(NamedTuple):
-    """How a body turns: its angular velocity and acceleration."""
-
-    rate: Any
-    second: Any
-
-
-_STILL = _Turning(0.0, 0.0)
+_Turning = tuple[Any, Any]
+"""How a body turns: its angular velocity and acceleration."""
+_STILL: _Turning = (0.0, 0.0)
 _Step = tuple[Sort, Any]
 """A vector about to be put down."""
 
@@ -124,20 +119,22 @@ class _Images:
 
     def _carried(self, arm: Any, turning: _Turning) -> list[_Step]:
         """Return the relative vectors between two points of a body."""
+        turn, growth = turning
         if self.order == 1:
-            return [("relative", 1j * turning.rate * arm)]
-        return [("normal", -turning.rate * turning.rate * arm), ("tangential", 1j * turning.second * arm)]
+            return [("relative", 1j * turn * arm)]
+        return [("normal", -turn * turn * arm), ("tangential", 1j * growth * arm)]
 
     def _along(self, slide: Slide, arm: Any, turning: _Turning) -> list[_Step]:
         """Return the relative vectors of what slides against its guide."""
         assert slide.start is not None
+        turn, turn_growth = turning
         u = complex(*unit(slide.angle)) * (self._direction(*slide.axis) if slide.axis else 1.0)
-        seen = self._apart(slide.start, slide.point, 1) - 1j * turning.rate * arm
+        seen = self._apart(slide.start, slide.point, 1) - 1j * turn * arm
         rate = (u.conjugate() * seen).real
         if self.order == 1:
             return [("sliding", rate * u)]
-        across = 2j * turning.rate * rate * u
-        guided = (1j * turning.second - turning.rate * turning.rate) * arm + across
+        across = 2j * turn * rate * u
+        guided = (1j * turn_growth - turn * turn) * arm + across
         growth = (u.conjugate() * (self._apart(slide.start, slide.point, 2) - guided)).real
         return [*([("coriolis", across)] if slide.axis else []), ("sliding", growth * u)]  # type: ignore[list-item]
 
@@ -146,7 +143,7 @@ class _Images:
         inverse = over(1.0, self._arm(*axis))
         rate = (inverse * self._apart(*axis, 1)).imag
         second = (inverse * self._apart(*axis, 2)).imag if self.order == 2 else 0.0
-        return _Turning(rate, second)
+        return rate, second
 
     def _laid(self, begin: Any, label: str, steps: Iterable[_Step]) -> tuple[Side, ...]:
         """Return vectors put end to end."""

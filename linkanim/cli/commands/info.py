@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from linkanim.atomic_files import checked_target
 from linkanim.cli import tolerances
 from linkanim.export import json_text
-from linkanim.mechanics.balance import Counterweight, Shaking, balanced, counterweights, flywheel, shaking
+from linkanim.mechanics.balance import Counterweight, balanced, counterweights, flywheel, shaken
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.units import rpm, significant, typeset
@@ -86,10 +86,10 @@ def evened(scene: Scene, fluctuation: float) -> dict[str, object]:
     return facts
 
 
-def _shaken(scene: Scene, weights: tuple[Counterweight, ...]) -> list[Shaking]:
-    """Return what inertia does to the ground, without and with counterweights."""
+def _shaken(scene: Scene, weights: tuple[Counterweight, ...]) -> list[tuple[float, float]]:
+    """Return the greatest force and moment of inertia on the ground, without and with counterweights."""
     linkages = (scene.linkage, balanced(scene.linkage, weights))
-    return [shaking(one, scene.linkage.drive.speed) for one in linkages]
+    return [shaken(one, scene.linkage.drive.speed).greatest for one in linkages]
 
 
 def _evened_lines(scene: Scene, fluctuation: float) -> Iterator[tuple[str, str]]:
