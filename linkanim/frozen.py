@@ -61,11 +61,13 @@ def _form(cls: Any) -> tuple[Any, ...]:
 
 def _filled(self: Any, /, *given: object, **named: object) -> None:
     placed, names, usual, makers, follows = _form(self.__class__)
-    values = {**usual, **dict(zip(placed, given, strict=False)), **named}
-    if len(values) < len(names):
-        values |= {name: make() for name, make in makers.items() if name not in values}
-    if len(values) != len(names) or len(given) > len(placed) or not names.issuperset(named):
-        self.__signature__.bind(*given, **named)  # says what is wrong
+    values = dict(zip(placed, given, strict=False))
+    if named or not len(given) == len(values) == len(names):
+        values = {**usual, **values, **named}
+        if len(values) < len(names):
+            values |= {name: make() for name, make in makers.items() if name not in values}
+        if len(values) != len(names) or len(given) > len(placed) or not names.issuperset(named):
+            self.__signature__.bind(*given, **named)  # says what is wrong
     self.__dict__.update(values)
     if follows:
         follows(self)
