@@ -11,7 +11,8 @@ import pytest
 from bits import rows
 
 from linkanim.mechanics.forces import input_effort
-from linkanim.mechanics.linkage import Linkage, Pin
+from linkanim.mechanics.groups import GroupPoint
+from linkanim.mechanics.linkage import Joint, Linkage, Pin
 from linkanim.mechanics.motion import mechanism
 from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
@@ -22,15 +23,23 @@ PHASES = np.array([0.0, 1e-5, 0.7, math.pi, 4.0])
 
 
 def moved(linkage: Linkage, x: float, y: float) -> Linkage:
-    """Return a linkage whose pins have few digits and are given by coordinates, the first one at a place."""
+    """Return a linkage whose places have few digits and are stated by coordinates, one pin at a place."""
     x0, y0 = next(linkage.pins).position
 
-    def placed(pin: Pin) -> Pin:
-        across, up = (round(way * 64) / 64 for way in (pin.position[0] - x0, pin.position[1] - y0))
-        return replace(pin, position=(x + across, y + up), polar=None)
+    def placed(at: tuple[float, float]) -> tuple[float, float]:
+        across, up = (round(way * 64) / 64 for way in (at[0] - x0, at[1] - y0))
+        return x + across, y + up
 
-    joints = (placed(joint) if isinstance(joint, Pin) else joint for joint in linkage.joints)
-    return replace(linkage, joints=tuple(joints))
+    def moved_joint(joint: Joint) -> Joint:
+        match joint:
+            case Pin():
+                return replace(joint, position=placed(joint.position), polar=None)
+            case GroupPoint():
+                links = (replace(one, places=tuple(map(placed, one.places))) for one in joint.group.members)
+                return replace(joint, group=replace(joint.group, members=tuple(links)))
+        return joint
+
+    return replace(linkage, joints=tuple(map(moved_joint, linkage.joints)))
 
 
 @pytest.mark.parametrize("name", names())
