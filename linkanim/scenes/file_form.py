@@ -16,7 +16,7 @@ import math
 from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, NamedTuple, get_args
+from typing import Any, get_args
 
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT
@@ -949,18 +949,6 @@ def _refuse_size(table: Table, values: Mapping[str, Any]) -> None:
             raise table.error(key, "does not go with against, which is along the slider's line; leave it out")
 
 
-class LoadForce(NamedTuple):
-    """A force of a load as a file states it, of length 1 where a table has its sizes."""
-
-    force: Point
-    turns: bool = False
-    places: tuple[float, ...] = ()
-    values: tuple[float, ...] = ()
-    over_travel: bool = False
-    against: bool = False
-    way: int = 0
-
-
 def _load_force(
     angle: float,
     turns: bool,
@@ -969,10 +957,21 @@ def _load_force(
     size: float = 1.0,
     table: tuple[tuple[float, float], ...] = (),
     moving: int = 0,
-) -> LoadForce:
+) -> Load:
+    """Return a load without a place: its force, of length 1 where a table has its sizes."""
     places, values = zip(*table, strict=True) if table else ((), ())
     force = (size, 0.0) if against else on_circle(size, angle)
-    return LoadForce(force, turns, places, values, bool(table) and over == "travel", against, moving)
+    return Load(
+        "",
+        "",
+        force=force,
+        turns=turns,
+        places=places,
+        values=values,
+        over_travel=bool(table) and over == "travel",
+        against=against,
+        way=moving,
+    )
 
 
 _ROWS: Schema = {"type": "array", "items": {}, "minItems": 2, "maxItems": 2}
@@ -1010,12 +1009,10 @@ _LOAD_PLACE = ValueType(
 )
 
 
-def _load(
-    name: str, on: str, at: Any = None, force: LoadForce | Point | None = None, torque: float = 0.0
-) -> Load:
+def _load(name: str, on: str, at: Any = None, force: Load | Point | None = None, torque: float = 0.0) -> Load:
     where = {"joint": at} if isinstance(at, str) else {"at": at}
-    how = force if isinstance(force, LoadForce) else LoadForce(force or (0.0, 0.0))
-    return Load(name, on, **where, torque=torque, **how._asdict())
+    how = force if isinstance(force, Load) else Load("", "", force=force or (0.0, 0.0))
+    return replace(how, name=name, on=on, torque=torque, **where)
 
 
 def _refuse_idle(table: Table, values: Mapping[str, Any]) -> None:

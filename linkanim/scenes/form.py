@@ -369,26 +369,21 @@ def _speed_of_input(table: Table, key: str) -> Any:
 INPUT_SPEED = replace(SPEED, read=_speed_of_input)
 
 
-def _above(measure: Measure, words: str, of: units.Units) -> ValueType:
-    refusal = partial(_not_above, most=_LARGEST)
+def _in_units(
+    measure: Measure, words: str, of: units.Units, refusal: Callable[..., str] = _not_above
+) -> ValueType:
     base = next(name for name, factor in of.factors.items() if factor == 1)
-    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal, base=base)
+    refused = partial(refusal, most=_LARGEST)
+    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refused, base=base)
 
 
-STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.STIFFNESS)
-DAMPING = _above("damping", 'a damping coefficient, `"200 N s/m"`', units.DAMPING)
-MASS = _above("mass", 'a mass, `"3 kg"`', units.MASS)
-INERTIA = _above("inertia", 'a moment of inertia, `"0.02 kg m^2"`', units.INERTIA)
-
-
-def _signed(measure: Measure, words: str, of: units.Units) -> ValueType:
-    base, refusal = next(iter(of.factors)), partial(_far, most=_LARGEST)
-    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal, base=base)
-
-
-FORCE = _signed("force", 'a force, `"50 N"`', units.FORCE)
-TORQUE = _signed("torque", 'a torque, `"5 N m"`', units.TORQUE)
-GRAVITY = _above("gravity", 'an acceleration, `"9.81 m/s^2"`', units.FALL)
+STIFFNESS = _in_units("stiffness", 'a stiffness, `"4000 N/m"`', units.STIFFNESS)
+DAMPING = _in_units("damping", 'a damping coefficient, `"200 N s/m"`', units.DAMPING)
+MASS = _in_units("mass", 'a mass, `"3 kg"`', units.MASS)
+INERTIA = _in_units("inertia", 'a moment of inertia, `"0.02 kg m^2"`', units.INERTIA)
+FORCE = _in_units("force", 'a force, `"50 N"`', units.FORCE, _far)
+TORQUE = _in_units("torque", 'a torque, `"5 N m"`', units.TORQUE, _far)
+GRAVITY = _in_units("gravity", 'an acceleration, `"9.81 m/s^2"`', units.FALL)
 RATIO = ValueType(
     _ratio,
     'a number, or a fraction as `"1/3"`',
