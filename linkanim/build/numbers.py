@@ -6,10 +6,10 @@ such as a guide that nothing slides on, stay.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from math import isnan
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkanim.build.building import Building, draft_of, grown, knowing
 from linkanim.build.dimensions import PropertyRow, rows_of
@@ -149,19 +149,17 @@ def _guide_of(draft: Draft, joint: str) -> str | None:
     return next(iter(guides)) if len(guides) == 1 and joint not in draft.places else None
 
 
-class PlacedRow(NamedTuple):
-    """A number of a draft: the thing that has it, its place among the thing's rows, and the row."""
-
-    thing: Thing
-    place: int
-    row: PropertyRow
+PlacedRow = tuple[Thing, int, PropertyRow]
+"""A number of a draft: the thing that has it, its place among the thing's rows, and the row."""
 
 
 def rows_of_all(draft: Draft) -> tuple[PlacedRow, ...]:
     """Return all stated numbers of a draft, each only once, with the thing that is drawn for it."""
     rows: dict[Key, PlacedRow] = {}
-    for one in _every_row(draft):
-        rows.setdefault(one.row.key, one)
+    for thing in draft.things():
+        for place, row in enumerate(rows_of(draft, thing)):
+            if row.number and not isnan(row.number.value):
+                rows.setdefault(row.key, (thing, place, row))
     return tuple(rows.values())
 
 
@@ -169,11 +167,4 @@ def chosen_row(building: Building) -> int | None:
     """Return the place, among all numbers, of the chosen thing's number to be typed; None without one."""
     own = rows_of(building.draft, building.chosen)
     key = own[building.row % len(own)].key if own else None
-    return next((n for n, one in enumerate(rows_of_all(building.draft)) if one.row.key == key), None)
-
-
-def _every_row(draft: Draft) -> Iterator[PlacedRow]:
-    for thing in draft.things():
-        for place, row in enumerate(rows_of(draft, thing)):
-            if row.number and not isnan(row.number.value):
-                yield PlacedRow(thing, place, row)
+    return next((n for n, (_, _, one) in enumerate(rows_of_all(building.draft)) if one.key == key), None)

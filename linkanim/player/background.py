@@ -241,6 +241,24 @@ class Kept(NamedTuple):
     target: Path
     size: str = ""
 
+    def rendering(self) -> Rendering:
+        """Start rendering the tape in a process; WorkFailed where that is impossible."""
+        size = ("--size", self.size) if self.size else ()
+        into = ("--no-clobber", "-o", str(self.target), "--progress")
+        number, name = tempfile.mkstemp()
+        # it stays open as long as the rendering runs
+        log = Path(name).open("rb", buffering=0)  # noqa: SIM115
+        try:
+            process = _start(child.module("linkanim", "record", str(self.tape), *size, *into), number)
+        except OSError as error:
+            log.close()
+            reason = f"the recording process cannot be started: {error.strerror}"
+            raise WorkFailed(f"{self.target}: {reason}") from None
+        finally:
+            os.close(number)
+            _forgotten(name)
+        return Rendering(self.target, process, log)
+
 
 def kept_at(place: str) -> Kept:
     """Return the files of a recording and its tape, for a typed place.
@@ -313,7 +331,7 @@ class Queue:
 
     def _go_on(self) -> None:
         if self._running is None and self._waiting:
-            self._running = render(self._waiting.pop(0))
+            self._running = self._waiting.pop(0).rendering()
 
 
 def keep(tape: Tape, form: str, place: str = "") -> Kept:
@@ -325,33 +343,6 @@ def keep(tape: Tape, form: str, place: str = "") -> Kept:
     made_folder(kept.target.parent)
     tape_file.write(tape, _ours(kept.tape))
     return kept
-
-
-def render(kept: Kept) -> Rendering:
-    """Start rendering a tape in a process; WorkFailed where that is impossible."""
-    target = kept.target
-    size = ("--size", kept.size) if kept.size else ()
-    where_to = ("--no-clobber", "-o", str(target))
-    command = child.module(
-        "linkanim",
-        "record",
-        str(kept.tape),
-        *size,
-        *where_to,
-        "--progress",
-    )
-    number, name = tempfile.mkstemp()
-    # it stays open as long as the rendering runs
-    log = Path(name).open("rb", buffering=0)  # noqa: SIM115
-    try:
-        process = _start(command, number)
-    except OSError as error:
-        log.close()
-        raise WorkFailed(f"{target}: the recording process cannot be started: {error.strerror}") from None
-    finally:
-        os.close(number)
-        _forgotten(name)
-    return Rendering(target, process, log)
 
 
 def _forgotten(name: str) -> None:

@@ -689,8 +689,8 @@ def _row_chosen(state: State, sheet: BuildSheet, row: int) -> State:
     rows = rows_of_all(sheet.building.draft)
     if not rows:
         return state
-    one = rows[row % len(rows)]
-    return _with(state, building=replace(choosing(sheet.building, one.thing), row=one.place))
+    thing, place, _ = rows[row % len(rows)]
+    return _with(state, building=replace(choosing(sheet.building, thing), row=place))
 
 
 def _row_further(state: State, sheet: BuildSheet, by: int) -> State:
@@ -702,10 +702,10 @@ def _row_nudged(state: State, sheet: BuildSheet, steps: int) -> State:
     at, rows = chosen_row(sheet.building), rows_of_all(sheet.building.draft)
     if at is None:
         return state
-    one = rows[at]
-    assert one.row.number
-    typed = replace(sheet.building, row=one.place, typed=nudged(one.row.number, steps))
-    return _shown(state, replace(dimensions.accept(typed), row=one.place))
+    _, place, row = rows[at]
+    assert row.number
+    typed = replace(sheet.building, row=place, typed=nudged(row.number, steps))
+    return _shown(state, replace(dimensions.accept(typed), row=place))
 
 
 def _unused(state: State, _: object) -> State:
@@ -893,13 +893,13 @@ def _panel_of_draft(building: Building) -> Panel:
     rows = (
         EditRow(
             subscripted_words(
-                said("{part}, {property}", part=called(draft, one.thing), property=said(one.row.label))
+                said("{part}, {property}", part=called(draft, thing), property=said(row.label))
             ),
-            stated(one.row, building, n == at),
+            stated(row, building, n == at),
             chosen=n == at,
             draft=n == at and building.typed != "",
         )
-        for n, one in enumerate(rows_of_all(draft))
+        for n, (thing, _, row) in enumerate(rows_of_all(draft))
     )
     error = building.sentence if building.is_refusal else None
     return Panel(tuple(rows), facts=(), error=error, hint=HINT)

@@ -24,9 +24,7 @@ from linkanim.player.keys import (
     SPEED,
     BarEntry,
     ModeKeys,
-    commands,
     group_key,
-    row_actions,
 )
 from linkanim.player.state import BLANK, MOUSE_FRAMES, Game, State
 from linkanim.scenes.editing import drives, handles
@@ -151,8 +149,8 @@ def _button(state: State, handle: BarEntry, named: tuple[str, str]) -> Button:
 @lru_cache(maxsize=32)
 def _names(mode: ModeKeys) -> Mapping[Action, tuple[str, str]]:
     """Return the names and keys of a mode's commands; for a group of them, its name and their keys."""
-    groups = {Action("menu", name): (one.title.lower(), group_key(name)) for name, one in GROUPS.items()}
-    named = {action: (words, key) for words, key, action in commands(mode)}
+    groups = {Action("menu", name): (title.lower(), group_key(name)) for name, (title, _) in GROUPS.items()}
+    named = {action: (words, key) for words, key, action in mode.commands}
     speed = {SPEED: ("speed", "↑ ↓" if named[SPEED][1] else "")} if SPEED in named else {}
     return {**named, **groups, **speed}
 
@@ -212,7 +210,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     """
     usual = {
         action: ListRow(said(words), key, action, (said(words), key, words))
-        for words, key, action in commands(state.keys)
+        for words, key, action in state.keys.commands
     }
     if what is None or what in GROUPS:
         return _of_mode(state, usual, what)
@@ -221,7 +219,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
         return Entries(to_say("Joints and links"), rows)
     if what.startswith("keys "):
         keys = what.removeprefix("keys ")
-        return Entries(keys, tuple(usual[one] for one in row_actions(state.keys, keys) if one in usual))
+        return Entries(keys, tuple(usual[one] for one in state.keys.row_actions(keys) if one in usual))
     if what in _CHOSEN:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
@@ -235,7 +233,7 @@ def line_asks(mode: ModeKeys, keys: str) -> Action | None:
 
     The line is found by its keys as they are written.
     """
-    actions = row_actions(mode, keys)
+    actions = mode.row_actions(keys)
     return Action("menu", f"keys {keys}") if len(actions) > 1 else next(iter(actions), None)
 
 
@@ -370,7 +368,7 @@ _ICONS: Mapping[str, Callable[[State], str]] = {
 _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("trace"): lambda state: state.look.trace and bool(state.scene.trace),
     Action("names"): lambda state: state.look.names > 0,
-    Action("menu", "arrows"): lambda state: bool(state.look.vectors) or _shows(GROUPS["arrows"].title)(state),
+    Action("menu", "arrows"): lambda state: bool(state.look.vectors) or _shows(GROUPS["arrows"][0])(state),
     Action("list"): lambda state: state.look.chart is not None,
     Action("menu", "construction"): lambda state: (
         state.look.polygons_shown > 0 or state.look.centres > 0 or state.constructed > 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field
-from functools import cache
+from functools import cached_property
 from typing import NamedTuple
 
 from linkanim.build.tools import TOOLS
@@ -303,6 +303,32 @@ class TypedKeys(NamedTuple):
     begins: str = ""
     further: str = ""
 
+    def takes(self, press: Press, *, typing: bool, valued: bool) -> bool:
+        """Return whether a key is typed, once something is (`typing`) and where that has a value."""
+        if press.ctrl or not press.text or not press.text.isprintable():
+            return False
+        if self.begins:
+            begins = valued and press.text in self.begins
+            return begins or (typing and (not self.further or press.text in self.further))
+        return typing or press.key not in self.keep
+
+
+class Press(NamedTuple):
+    """A key that went down: its name, the modifiers, and the text it types (empty where none)."""
+
+    key: str
+    text: str = ""
+    shift: bool = False
+    ctrl: bool = False
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names it may be bound under, the most particular first."""
+        if self.ctrl:
+            return ("ctrl+shift+" + self.key,) if self.shift else ("ctrl+" + self.key,)
+        symbol = () if self.text.isalpha() else (self.text,)
+        return ("shift+" + self.key, *symbol, self.key) if self.shift else (self.key, *symbol)
+
 
 @frozen(eq=False)
 class ModeKeys:
@@ -324,56 +350,59 @@ class ModeKeys:
         """The binds of this mode only, without those of all modes."""
         return _binds(self.table)
 
+    def bind_of(self, press: Press, *, typing: bool = False, valued: bool = True) -> Bind | None:
+        """Return what a key asks for; None where it is not bound.
 
-_ANGLE = TypedKeys("type_place", begins="0123456789", further="0123456789.")
-RUNNING = ModeKeys("play", typed=_ANGLE)
-"""The keys while a mechanism runs: digits are an input angle."""
-OF_MODES: tuple[ModeKeys, ...] = (
-    RUNNING,
-    ModeKeys("paused", typed=_ANGLE),
-    ModeKeys("lesson", _LESSON_TABLE, _ANGLE),
-)
+        In an open list printable keys are typed, except for a few that keep their meaning until something is
+        typed (`typing`). While a mechanism is shown digits are a place to go to. On a sheet they are typed
+        where the chosen thing has a value (`valued`); else they are the numbers of tools.
+        """
+        if self.typed and self.typed.takes(press, typing=typing, valued=valued):
+            return Bind(press.key, Action(self.typed.action, press.text), repeats=True)
+        tables = (self.table, {} if self.alone else KEYS)
+        binds = (
+            bind for table in tables for name in press.names for bind in _binds(table) if bind.key == name
+        )
+        others = Bind(press.key, self.others) if self.others and press.text and not press.ctrl else None
+        return next(binds, others)
 
+    def row_actions(self, keys: str) -> tuple[Action, ...]:
+        """Return the actions of a line of the help, each once; the line is found by its keys as written."""
+        rows = (row for table in (self.table, KEYS) for row in _rows(table) if row.keys == keys)
+        return tuple(dict.fromkeys(bind.action for bind in next(rows, KeyRow("", "")).binds))
 
-class Press(NamedTuple):
-    """A key that went down: its name, the modifiers, and the text it types (empty where none)."""
+    @cached_property
+    def commands(self) -> tuple[tuple[str, str, Action], ...]:
+        """All commands of the mode, each once: its words, its first key, its action.
 
-    key: str
-    text: str = ""
-    shift: bool = False
-    ctrl: bool = False
+        The key is empty where all keys of a command mean something else in the mode.
+        """
+        above: set[str] = set()
+        named: dict[Action, tuple[str, str, Action]] = {}
+        usual = () if self.alone else tuple(_rows(KEYS))
+        for n, rows in enumerate((*self.table.values(), usual)):
+            for one, bind in ((row, bind) for row in rows for bind in row.binds):
+                if bind.action.name not in _NEEDS_KEYS:
+                    below = bind.key in above or (n > 0 and self._types(bind.key))
+                    key = "" if below else _as_written(bind.key)
+                    apart = self.names.get(bind.action, _APART.get(bind.action, one.words))
+                    words, known, _ = named.get(bind.action, (apart, "", bind.action))
+                    named[bind.action] = (words, known or key, bind.action)
+            above |= {bind.key for row in rows for bind in row.binds}
+        # a mode's own command replaces the general one of the same name
+        by_name = {words: action for words, _, action in reversed(named.values())}
+        return tuple(one for one in named.values() if by_name[one[0]] == one[-1])
 
+    def _types(self, key: str) -> bool:
+        """Tell whether a key is typed in an open list, and so has no other meaning."""
+        typed = self.typed
+        return typed is not None and not typed.begins and len(key) == 1 and key not in typed.keep
 
-def bind_of(
-    press: Press, mode: ModeKeys = RUNNING, *, typing: bool = False, valued: bool = True
-) -> Bind | None:
-    """Return what a key asks for; None where it is not bound.
-
-    In an open list printable keys are typed, except for a few that keep their meaning until something is
-    typed (`typing`). While a mechanism is shown digits are a place to go to. On a sheet they are typed where
-    the chosen thing has a value (`valued`); else they are the numbers of tools.
-    """
-    if mode.typed and _is_typed(press, mode.typed, typing, valued=valued):
-        return Bind(press.key, Action(mode.typed.action, press.text), repeats=True)
-    tables = (mode.table, {} if mode.alone else KEYS)
-    binds = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
-    others = Bind(press.key, mode.others) if mode.others and press.text and not press.ctrl else None
-    return next(binds, others)
-
-
-def _is_typed(press: Press, typed: TypedKeys, typing: bool, *, valued: bool) -> bool:
-    if press.ctrl or not press.text or not press.text.isprintable():
-        return False
-    if typed.begins:
-        begins = valued and press.text in typed.begins
-        return begins or (typing and (not typed.further or press.text in typed.further))
-    return typing or press.key not in typed.keep
-
-
-def row_actions(mode: ModeKeys, keys: str) -> tuple[Action, ...]:
-    """Return the actions of a line of the help, each once; the line is found by its keys as written."""
-    rows = (row for table in (mode.table, KEYS) for row in _rows(table) if row.keys == keys)
-    return tuple(dict.fromkeys(bind.action for bind in next(rows, KeyRow("", "")).binds))
+    @property
+    def help_groups(self) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+        """(subject, its lines of keys and what they do) as the help overlay shows them."""
+        table = (self.table or KEYS).items()
+        return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table)
 
 
 def _rows(table: Table) -> Iterator[KeyRow]:
@@ -384,12 +413,14 @@ def _binds(table: Table) -> Iterator[Bind]:
     return (bind for row in _rows(table) for bind in row.binds)
 
 
-def _names(press: Press) -> tuple[str, ...]:
-    """Return the names a press may be bound under, the most particular first."""
-    if press.ctrl:
-        return ("ctrl+shift+" + press.key,) if press.shift else ("ctrl+" + press.key,)
-    symbol = () if press.text.isalpha() else (press.text,)
-    return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
+_ANGLE = TypedKeys("type_place", begins="0123456789", further="0123456789.")
+RUNNING = ModeKeys("play", typed=_ANGLE)
+"""The keys while a mechanism runs: digits are an input angle."""
+OF_MODES: tuple[ModeKeys, ...] = (
+    RUNNING,
+    ModeKeys("paused", typed=_ANGLE),
+    ModeKeys("lesson", _LESSON_TABLE, _ANGLE),
+)
 
 
 BESIDE_GAMES = frozenset(
@@ -524,34 +555,20 @@ _APART: Mapping[Action, str] = {
 """The names of commands that share a row of the table."""
 
 
-class CommandGroup(NamedTuple):
-    """Commands that stand together in a list of their own: its title, and their actions."""
-
-    title: str
-    actions: tuple[Action, ...]
-
-
-GROUPS: Mapping[str, CommandGroup] = {
-    "arrows": CommandGroup(to_say("Arrows"), tuple(Action("vectors", kind) for kind in "vaf")),
-    "construction": CommandGroup(
+GROUPS: Mapping[str, tuple[str, tuple[Action, ...]]] = {
+    "arrows": (to_say("Arrows"), tuple(Action("vectors", kind) for kind in "vaf")),
+    "construction": (
         to_say("Construction"),
-        (
-            Action("closure"),
-            Action("polygons"),
-            Action("large_polygon"),
-            Action("centres"),
-            Action("chain"),
-            Action("ghost"),
-        ),
+        tuple(map(Action, ("closure", "polygons", "large_polygon", "centres", "chain", "ghost"))),
     ),
 }
-"""The groups of commands behind single buttons of the bar, by name."""
+"""The commands behind single buttons of the bar, by name: the title of their list, and their actions."""
 
 
 def group_key(name: str) -> str:
     """Return the keys of a group's commands, as they are written."""
-    keys = {action: key for _, key, action in commands(RUNNING)}
-    return ", ".join(keys[action] for action in GROUPS[name].actions if len(keys[action]) == 1)
+    keys = {action: key for _, key, action in RUNNING.commands}
+    return ", ".join(keys[action] for action in GROUPS[name][1] if len(keys[action]) == 1)
 
 
 _WRITTEN = {
@@ -560,45 +577,10 @@ _WRITTEN = {
 }
 
 
-@cache
-def commands(mode: ModeKeys) -> tuple[tuple[str, str, Action], ...]:
-    """Return all commands of a mode, each once: its words, its first key, its action.
-
-    The key is empty where all keys of a command mean something else in the mode.
-    """
-    above: set[str] = set()
-    named: dict[Action, tuple[str, str, Action]] = {}
-    usual = () if mode.alone else tuple(_rows(KEYS))
-    for n, rows in enumerate((*mode.table.values(), usual)):
-        for one, bind in ((row, bind) for row in rows for bind in row.binds):
-            if bind.action.name not in _NEEDS_KEYS:
-                below = bind.key in above or (n > 0 and _types(bind.key, mode))
-                key = "" if below else _as_written(bind.key)
-                apart = mode.names.get(bind.action, _APART.get(bind.action, one.words))
-                words, known, _ = named.get(bind.action, (apart, "", bind.action))
-                named[bind.action] = (words, known or key, bind.action)
-        above |= {bind.key for row in rows for bind in row.binds}
-    # a mode's own command replaces the general one of the same name
-    by_name = {words: action for words, _, action in reversed(named.values())}
-    return tuple(one for one in named.values() if by_name[one[0]] == one[-1])
-
-
-def _types(key: str, mode: ModeKeys) -> bool:
-    """Tell whether a key is typed in an open list, and so has no other meaning."""
-    typed = mode.typed
-    return typed is not None and not typed.begins and len(key) == 1 and key not in typed.keep
-
-
 def _as_written(key: str) -> str:
     """Return a key as it is written for readers, as Ctrl+Shift+S."""
     *held, last = key.split("+") if len(key) > 1 else [key]
     return "+".join([*map(str.capitalize, held), _WRITTEN.get(last, last.capitalize())])
-
-
-def help_groups(mode: ModeKeys) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
-    """Return (subject, its lines of keys and what they do) as the help shows them."""
-    table = mode.table or KEYS
-    return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
 
 
 def as_text(*, indent: str = "  ") -> str:

@@ -23,7 +23,6 @@ from linkanim.player.keys import (
     ModeKeys,
     TypedKeys,
     both,
-    commands,
     enter,
     on,
     tabs,
@@ -70,7 +69,7 @@ def rows(state: State) -> tuple[Row, ...]:
     """Return the rows of the open dialog: the choices, the row that begins, and other ways to keep things."""
     dialog, choice = state.of(RecordDialog) or RecordDialog(), of_a_kind(state)
     typed = f"{dialog.typed}_" if dialog.typed else f"{dialog.place}.{choice.format}"
-    keys = {action: (said(words), key) for words, key, action in commands(RUNNING)}
+    keys = {action: (said(words), key) for words, key, action in RUNNING.commands}
     return (
         (said("Format"), choice.format.upper(), None),
         (said("Size"), _sized(choice.size), None),

@@ -19,7 +19,7 @@ from pygame.event import Event
 from linkanim.player.action import Action
 from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.hand import Drag, Gesture
-from linkanim.player.keys import Bind, ModeKeys, Press, bind_of
+from linkanim.player.keys import Bind, ModeKeys, Press
 from linkanim.player.state import NEAR_HAND, REACH, STILL, State
 from linkanim.scenes.editing import phase_towards
 from linkanim.ui.pointing import NOWHERE, AtMouse, Pointed, led, row_asks, speed_rows
@@ -219,7 +219,7 @@ class Pads:
         if key == "space" and mode.name not in ("play", "paused"):
             key = "return"
         press = Press(key.removeprefix("shift+"), shift=key.startswith("shift+"))
-        bind = bind_of(press, mode) if key else None
+        bind = mode.bind_of(press) if key else None
         self._repeats.begin(bind, frame)
         return (bind.action,) if bind else ()
 

@@ -28,7 +28,6 @@ from linkanim.picture.view import Rect, on_the_way
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import Button, bar, bar_eighths
 from linkanim.player.framing import moves_of
-from linkanim.player.keys import help_groups
 from linkanim.player.state import State
 from linkanim.ui.command_bar import CommandBar
 from linkanim.ui.pictures import stands
@@ -354,7 +353,7 @@ class Panels:
             self._list(board, listed, shut, sheets, targets)
         if state.help:
             left = self._width_at_left(board, self._keep(_drawn, listed)) if isinstance(panel, Panel) else 0
-            self._helped(board, help_groups(state.keys), left, sheets, targets)
+            self._helped(board, state.keys.help_groups, left, sheets, targets)
         if words := words_at_foot(board, state, mouse, shown):
             drawn, (x, y) = self._keep(foot, words)
             sheets.append(PanelSheet(drawn, (round(x), round(y))))

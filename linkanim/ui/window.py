@@ -29,7 +29,6 @@ from linkanim.player.building import leave_sheet, written
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, relative, scene_files
-from linkanim.player.keys import bind_of
 from linkanim.player.lesson import Lesson
 from linkanim.player.making import Layering
 from linkanim.player.naming import Naming
@@ -551,7 +550,7 @@ class Window:
             return ()
         press = self._keyboard.press(event)
         on = self.state
-        bind = bind_of(press, on.keys, typing=on.typing, valued=on.valued) if press else None
+        bind = on.keys.bind_of(press, typing=on.typing, valued=on.valued) if press else None
         self._keyboard.hold(event, bind, self._now)
         return (bind.action,) if bind else ()
 

@@ -108,10 +108,10 @@ def test_all_numbers_of_a_drawing_are_listed_each_but_once() -> None:
         building = gesture(building, line)
     assert building.made.scene is None
     rows = rows_of_all(building.draft)
-    keys = [one.row.key for one in rows]
+    keys = [row.key for *_, row in rows]
     assert len(keys) == len(set(keys))
     assert {("pins", "O2", 0), ("bars", "O2–A", "length"), ("bars", "A–B", "length")} <= {*keys}
     at = chosen_row(building)
     assert at is not None
-    assert rows[at].row.key == ("bars", "A–B", "length")
+    assert rows[at][2].key == ("bars", "A–B", "length")
     assert chosen_row(replace(building, chosen=None)) is None

@@ -103,7 +103,7 @@ def _of_tables() -> Iterator[Sentence]:
 def _of_the_window() -> Iterator[Sentence]:
     """Yield the words of keys, commands and tools."""
     from linkanim.build.tools import TOOLS
-    from linkanim.player.keys import GROUPS, KEYS, commands
+    from linkanim.player.keys import GROUPS, KEYS
     from linkanim.player.modes import KEYS_OF
     from linkanim.scenes.file_form import SCENE_FILE
 
@@ -115,10 +115,10 @@ def _of_the_window() -> Iterator[Sentence]:
                 if has_words(row.keys):
                     yield Sentence(None, row.keys, None, f"keys: {row.keys}")
     for mode in KEYS_OF.values():
-        for words, _, action in commands(mode):
+        for words, _, action in mode.commands:
             yield Sentence(None, words, None, f"command: {action.name}")
-    for group in GROUPS.values():
-        yield Sentence(None, group.title.lower(), None, f"GROUPS: {group.title}")
+    for title, _ in GROUPS.values():
+        yield Sentence(None, title.lower(), None, f"GROUPS: {title}")
     for tool in TOOLS:
         yield Sentence(None, tool.name, None, f"TOOLS: {tool.icon}")
         if tool.action == "tool":

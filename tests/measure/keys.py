@@ -15,7 +15,7 @@ from linkanim.bench.result import this_machine
 from linkanim.export import columns
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.keys import Press, bind_of
+from linkanim.player.keys import RUNNING, Press
 from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 from linkanim.ui import screen as display
@@ -66,7 +66,7 @@ def _over(cost: KeyCost, size: tuple[int, int]) -> bool:
 
 def _pressed(size: tuple[int, int], name: str, key: str) -> KeyCost:
     begun = begin(replace(load(name)))  # of which nothing is known from the key before
-    bind = bind_of(Press(key, key))
+    bind = RUNNING.bind_of(Press(key, key))
     assert bind is not None, f"the key {key} does nothing"
     with display.opened(size):
         screen = Screen(begun)

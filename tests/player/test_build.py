@@ -28,7 +28,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.browsing import NEW
 from linkanim.player.files import DraftFile
-from linkanim.player.keys import Press, bind_of
+from linkanim.player.keys import Press
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.naming import Naming
 from linkanim.player.on_sheet import SheetDrawing
@@ -382,7 +382,7 @@ SCENE_LETTERS = {
 
 @pytest.mark.parametrize("letter", SCENE_LETTERS)
 def test_a_letter_asks_on_the_sheet_for_what_it_does_on_the_scene(letter: str) -> None:
-    on_sheet, on_scene = (bind_of(Press(letter, letter), KEYS_OF[mode]) for mode in ("build", "play"))
+    on_sheet, on_scene = (KEYS_OF[mode].bind_of(Press(letter, letter)) for mode in ("build", "play"))
     assert on_sheet == on_scene
     assert on_sheet
     assert on_sheet.action.name == SCENE_LETTERS[letter]

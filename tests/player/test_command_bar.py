@@ -22,7 +22,7 @@ from linkanim.player import record_dialog
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import Button, bar, bar_eighths, pressed, slid, slides
-from linkanim.player.keys import GROUPS, commands, help_groups
+from linkanim.player.keys import GROUPS
 from linkanim.player.lesson import LessonStep
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
@@ -109,7 +109,7 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: str) -> None:
     state = entered(mode)
     found = bar(state)
     assert found
-    known = {action for _, _, action in commands(KEYS_OF[mode])}
+    known = {action for _, _, action in KEYS_OF[mode].commands}
     for number, button in enumerate(found):
         assert button.icon in COMMAND_ICONS or button.share is not None
         assert button.name
@@ -508,7 +508,7 @@ def test_a_line_of_several_commands_lists_them(large: Player) -> None:
 
 @pytest.mark.slow
 def test_every_line_of_the_help_is_under_the_mouse(large: Player) -> None:
-    wanted = {keys for _, lines in help_groups(large.state.keys) for keys, _ in lines}
+    wanted = {keys for _, lines in large.state.keys.help_groups for keys, _ in lines}
     found = {large.window.screen.help_at(x, y) for y in range(2, 718, 4) for x in range(20, 1270, 60)}
     assert wanted <= found
 

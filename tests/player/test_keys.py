@@ -16,9 +16,6 @@ from linkanim.player.keys import (
     Press,
     Table,
     as_text,
-    bind_of,
-    commands,
-    help_groups,
 )
 from linkanim.player.modes import KEYS_OF, as_markdown, key_names
 from linkanim.ui.panels import help_sheet
@@ -30,7 +27,7 @@ BINDS = [bind for rows in ROWS.values() for row in rows for bind in row.binds]
 
 
 def action_of(press: Press, mode: str = "play", *, typing: bool = False) -> Action | None:
-    bind = bind_of(press, KEYS_OF[mode], typing=typing)
+    bind = KEYS_OF[mode].bind_of(press, typing=typing)
     return bind.action if bind else None
 
 
@@ -172,14 +169,14 @@ def test_a_key_while_the_shelf_is_open(press: Press, action: Action | None) -> N
 
 
 def test_the_help_goes_by_subjects() -> None:
-    assert tuple(subject for subject, _ in help_groups(KEYS_OF["play"])) == (
+    assert tuple(subject for subject, _ in KEYS_OF["play"].help_groups) == (
         "play",
         "look",
         "measure",
         "edit",
         "keep",
     )
-    assert [subject for subject, _ in help_groups(KEYS_OF["list"])] == ["in K"]
+    assert [subject for subject, _ in KEYS_OF["list"].help_groups] == ["in K"]
 
 
 def test_keys_that_hold_are_those_that_move() -> None:
@@ -204,7 +201,7 @@ def test_keys_that_hold_are_those_that_move() -> None:
 
 @pytest.mark.parametrize("mode", ["edit", "list"])
 def test_a_letter_that_is_typed_repeats_while_it_is_held(mode: str) -> None:
-    bind = bind_of(Press("7", "7"), KEYS_OF[mode], typing=True)
+    bind = KEYS_OF[mode].bind_of(Press("7", "7"), typing=True)
     assert bind
     assert bind.repeats
 
@@ -240,7 +237,7 @@ def test_all_of_the_help_is_there_in_a_small_window_too(
 ) -> None:
     drawn: list[str] = []
     monkeypatch.setattr(Type, "draw", lambda *words, **_: drawn.append(words[2]))
-    board, groups = Board(layout((640, 360)), Type(), theme_of("light")), help_groups(KEYS_OF[mode])
+    board, groups = Board(layout((640, 360)), Type(), theme_of("light")), KEYS_OF[mode].help_groups
     sheet = help_sheet(board, (groups, room)).sheet
     assert sheet.get_width() <= room
     assert sheet.get_height() <= 360
@@ -250,7 +247,7 @@ def test_all_of_the_help_is_there_in_a_small_window_too(
 
 
 def test_commands_in_the_list_are_told_apart_by_their_words() -> None:
-    words = [said for said, _, _ in commands(KEYS_OF["play"])]
+    words = [said for said, _, _ in KEYS_OF["play"].commands]
     assert sorted(words) == sorted(set(words))
 
 
@@ -261,5 +258,5 @@ def test_of_keys_that_step_each_is_called_by_its_own_way_in_the_list(mode: str) 
         for row in (*ROWS["play"], *ROWS.get(mode, ()))
         if len({bind.action.value for bind in row.binds if isinstance(bind.action.value, int)}) > 1
     }
-    steps = [said for said, _, action in commands(KEYS_OF[mode]) if isinstance(action.value, int)]
+    steps = [said for said, _, action in KEYS_OF[mode].commands if isinstance(action.value, int)]
     assert [said for said in steps if said in of_several] == []

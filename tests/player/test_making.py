@@ -31,7 +31,6 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.background import Making
 from linkanim.player.commands import bar
-from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.making import LIFTED, Layering
 from linkanim.player.modes import KEYS_OF
@@ -205,7 +204,7 @@ def test_a_tape_that_begins_amid_layers_has_them(shown: State) -> None:
 
 @pytest.mark.parametrize("mode", ["play", "paused", "pencil", "build", "layers"])
 def test_the_list_of_commands_makes_the_parts_in_every_mode(mode: str) -> None:
-    assert Action("make") in [action for *_, action in commands(KEYS_OF[mode])]
+    assert Action("make") in [action for *_, action in KEYS_OF[mode].commands]
 
 
 @pytest.mark.parametrize("apart", [0.0, 0.3, 1.0])

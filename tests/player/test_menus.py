@@ -15,7 +15,7 @@ from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_known
 from linkanim.player.commands import ListRow, menu_of
-from linkanim.player.keys import GROUPS, commands
+from linkanim.player.keys import GROUPS
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
@@ -65,7 +65,7 @@ def enter(player: Player, mode: str) -> None:
 
 def expected(mode: str) -> list[tuple[str, str, Action]]:
     """Return the commands that the list of a mode has."""
-    return [one for one in commands(KEYS_OF[mode]) if one[-1].name != "menu"]
+    return [one for one in KEYS_OF[mode].commands if one[-1].name != "menu"]
 
 
 CONSTRUCTED = [
@@ -84,7 +84,7 @@ def open_rows(state: State) -> list[ListRow]:
 @pytest.mark.parametrize("mode", [mode for mode in ENTERED if mode != "game"])
 def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(player: Player, mode: str) -> None:
     enter(player, mode)
-    listed = commands(KEYS_OF["paused"]) if mode == "list" else []
+    listed = KEYS_OF["paused"].commands if mode == "list" else []
     wanted = [one for one in listed if one[-1].name != "menu"] or expected(mode)
     if mode in ("play", "paused", "list", "edit"):
         wanted = [*wanted, *CONSTRUCTED]
@@ -102,7 +102,7 @@ def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(playe
 
 @pytest.mark.parametrize("mode", [*ENTERED, "shelf", "name"])
 def test_every_command_of_a_list_is_one_that_the_window_knows(mode: str) -> None:
-    for words, _, action in commands(KEYS_OF[mode]):
+    for words, _, action in KEYS_OF[mode].commands:
         assert words
         assert is_known(action) or action.name in MEANINGS, action
 
@@ -152,7 +152,7 @@ def test_over_a_game_the_list_begins_with_what_the_game_has_now(player: Player, 
 def test_a_group_has_its_commands(group: str) -> None:
     found = menu_of(begin(load("press")), group)
     assert found
-    assert {row.action for row in found.entries} == {*GROUPS[group].actions}
+    assert {row.action for row in found.entries} == {*GROUPS[group][1]}
 
 
 # What a joint, a link, a spring or a damper of a scene has, by its words.
@@ -381,12 +381,12 @@ def test_a_short_list_has_none(player: Player) -> None:
 
 @pytest.mark.parametrize("mode", KEYS_OF)
 def test_no_two_commands_of_a_mode_have_one_name(mode: str) -> None:
-    names_ = [words for words, _, _ in commands(KEYS_OF[mode])]
+    names_ = [words for words, _, _ in KEYS_OF[mode].commands]
     assert sorted({*names_}) == sorted(names_)
 
 
 def test_the_button_that_leaves_the_sheet_says_so() -> None:
-    named = {action: words for words, _, action in commands(KEYS_OF["build"])}
+    named = {action: words for words, _, action in KEYS_OF["build"].commands}
     assert named[Action("build")].startswith("done")
     assert Action("undo_sheet") in named
     assert Action("undo") not in named

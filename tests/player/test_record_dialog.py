@@ -353,13 +353,13 @@ def test_a_recording_of_the_dialog_is_ours_and_may_be_made_again(here: Path) -> 
     tape = Tape(begin(load("kite")), 6, ())
     for _ in range(2):
         kept = background.keep(tape, "gif", "film.gif")._replace(size="64x36")
-        rendering = background.render(kept)
+        rendering = kept.rendering()
         assert rendering._process.wait() == 0
         rendering.close()
     known = json.loads((here / ".linkanim-outputs.json").read_text())["files"]
     assert {*known} == {"film.gif", "film.tape.json"}
     (here / "film.gif").write_bytes(b"mine now")
-    rendering = background.render(kept)
+    rendering = kept.rendering()
     assert rendering._process.wait() == 2
     assert "was changed after linkanim wrote it" in rendering.words()
     rendering.close()

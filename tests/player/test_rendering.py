@@ -47,7 +47,7 @@ def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
     if windows:
         monkeypatch.delattr(os, "pread", raising=False)
         monkeypatch.setattr(Path, "unlink", refused)
-    one = background.render(background.keep(tape, "gif"))
+    one = background.keep(tape, "gif").rendering()
     open_ones.append(one)
     one._process.wait()
     for _ in range(2):
@@ -65,7 +65,7 @@ def test_a_rendering_that_runs_says_how_far_it_is(
         return subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
 
     monkeypatch.setattr(background, "_start", still_running)
-    one = background.render(background.keep(tape, "gif"))
+    one = background.keep(tape, "gif").rendering()
     process = one._process
     try:
         assert one.words().endswith("kite-1.gif: 16 %")
@@ -85,7 +85,7 @@ def test_a_process_that_cannot_be_started_leaves_nothing_open(
     monkeypatch.setattr(background, "_start", refused)
     before = len(list(Path("/proc/self/fd").iterdir())) if Path("/proc/self/fd").exists() else 0
     with pytest.raises(WorkFailed, match="cannot be started: Resource temporarily unavailable"):
-        background.render(background.keep(tape, "gif"))
+        background.keep(tape, "gif").rendering()
     assert list((here / "tmp").iterdir()) == []
     assert before == (len(list(Path("/proc/self/fd").iterdir())) if before else 0)
 

@@ -12,7 +12,7 @@ from linkanim.cli.command_table import parse
 from linkanim.cli.picture_options import look_of
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.player.actions import advance
-from linkanim.player.keys import Press, as_text, bind_of
+from linkanim.player.keys import RUNNING, Press, as_text
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape
 from linkanim.player.tape_file import from_document, to_document
@@ -34,7 +34,7 @@ def laden() -> State:
 
 def pressed(state: State, key: str) -> State:
     letter = key.removeprefix("shift+")
-    bind = bind_of(Press(letter, letter, shift=letter != key))
+    bind = RUNNING.bind_of(Press(letter, letter, shift=letter != key))
     assert bind is not None
     return advance(state, [bind.action])
 

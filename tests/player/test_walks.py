@@ -17,7 +17,6 @@ from linkanim.player import background
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.commands import bar, menu_of
-from linkanim.player.keys import commands
 from linkanim.player.listing import Listing
 from linkanim.player.modes import KEYS_OF
 from linkanim.player.state import State, begin
@@ -111,7 +110,7 @@ def wanted(state: State) -> list[Action]:
         assert every
         return [row.action for row in every.entries]
     mode = "paused" if state.mode in ("list", "shelf") else state.mode
-    return [action for _, _, action in commands(KEYS_OF[mode]) if action.name != "menu"]
+    return [action for _, _, action in KEYS_OF[mode].commands if action.name != "menu"]
 
 
 def open_list(player: Player) -> None:
