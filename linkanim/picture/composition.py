@@ -18,8 +18,7 @@ from linkanim.picture.dimensions import Symbols, symbols
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.fit import NOTHING, Extent, around, each, fitted, nearest, of_linkage, together
 from linkanim.picture.hud import (
-    Legendary,
-    WidestRow,
+    Ranked,
     WordBlock,
     caption_lines,
     columns,
@@ -84,7 +83,7 @@ class Subject:
         return (self.figure.scene, self.beside) if self.beside else (self.figure.scene,)
 
     @cached_as_said
-    def rows(self) -> tuple[WidestRow, ...]:
+    def rows(self) -> tuple[Ranked, ...]:
         """The rows of their readout, at their widest."""
         return widest_rows(self.scenes, letters())
 
@@ -345,11 +344,10 @@ class _Composer:
             for beside in ((False, True) if self._may_stand_beside else (False,))
         ]
         most = max(_scale(extent, parts, still) for _, parts in sides)
-        legend = Legendary(key_lines(self.look), listed)
         scenes: Sequence[Scene] = self.subject.scenes if self.look.hud and not self.docked.listed else ()
         rows = self.subject.rows if scenes else ()
         best: tuple[float, Layout, WordBlock] | None = None
-        for block in columns(scenes, rows, self._bare, legend, self.type):
+        for block in columns(scenes, rows, self._bare, self.type, keys=key_lines(self.look), listed=listed):
             best = None
             for (beside, parts), above in product(sides, (False, True)):
                 slots = (
@@ -365,7 +363,7 @@ class _Composer:
                     best = weight, slots, block
                     fitting = scale
             # what is listed is nowhere else
-            alone = listed and not block.lines and not block.rows
+            alone = listed and not block.title and not block.rows
             if best is not None and fitting >= (_KEEPS_LISTED if alone else _KEEPS) * most:
                 break
         assert best is not None

@@ -7,7 +7,8 @@ much an arrow of its length stands for. An arrangement places the words as block
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cached_property
+from dataclasses import replace
+from functools import cached_property, partial
 from itertools import zip_longest
 from math import degrees, floor, inf, log10, pi, tau
 from typing import TYPE_CHECKING, NamedTuple
@@ -250,23 +251,17 @@ STEP = 1.4
 """The step from row to row, in heights of their text."""
 
 
-class WordLine(NamedTuple):
-    """A line that stands still: its text, how far down it is, its size, whether it is a title."""
-
-    text: str
-    y: float
-    size: int
-    strong: bool
-
-
 @frozen
 class WordBlock:
     """The column of words; all places are measured from its top left corner."""
 
     size: int
     """The height of the readout's text."""
-    lines: tuple[WordLine, ...] = ()
-    """The lines of the title and of the class."""
+    title_size: int = 0
+    title: tuple[str, ...] = ()
+    """The lines of the title."""
+    classes: tuple[str, ...] = ()
+    """The lines of the class, below it."""
     rows: frozenset[str] = frozenset()
     """The names of the rows that are shown."""
     first: float = 0.0
@@ -277,6 +272,19 @@ class WordBlock:
     """The top of the legend: the key to the colours, and below it what is listed."""
     width: float = 0.0
     height: float = 0.0
+
+    @property
+    def lines(self) -> Iterator[tuple[str, float]]:
+        """The lines of title and class, each with its top; at last "" with their foot."""
+        y = 0.0
+        for text in self.title:
+            yield text, y
+            y += 1.12 * self.title_size
+        y += 0.1 * self.size if self.title else 0.0
+        for text in self.classes:
+            yield text, y
+            y += 1.2 * self.size
+        yield "", y
 
 
 @frozen
@@ -293,11 +301,13 @@ class Hud:
     def still(self) -> Group:
         """The words that stand still; a click is for a row by its label, or for the class by ""."""
         captions, targets, place, size = list[Caption](), list[Target](), self.place, self.block.size
-        for line in self.block.lines:
-            at, ink = (place.x, place.y + line.y), self.theme.ink if line.strong else self.theme.dim
-            captions.append(Caption(line.text, at, line.size, ink, strong=line.strong))
-            if not line.strong:
-                targets.append(Target("reading", place._replace(y=at[1], height=1.2 * line.size), ""))
+        for n, (text, down) in enumerate(self.block.lines):
+            at = place.x, place.y + down
+            if n < len(self.block.title):
+                captions.append(Caption(text, at, self.block.title_size, self.theme.ink, strong=True))
+            elif text:
+                captions.append(Caption(text, at, size, self.theme.dim))
+                targets.append(Target("reading", place._replace(y=at[1], height=1.2 * size), ""))
         for n, (_, row) in enumerate(ranked(self._rows, self.scene.pose(0.0))):
             captions.append(Caption(row.label, (place.x, self._top(n)), size, self.theme.dim))
             around = place._replace(y=self._top(n) - 0.1 * STEP * size, height=STEP * size)
@@ -470,104 +480,102 @@ LISTED_STEP = 1.3
 """The step from row to row of what is listed, in heights of its text."""
 
 
-class WidestRow(NamedTuple):
-    """A row with the value that needs the most room, and its rank."""
-
-    rank: int
-    row: Reading
+Ranked = tuple[int, Reading]
+"""A row's rank, and the row with the value that needs the most room."""
 
 
-def widest_rows(scenes: Sequence[Scene], type_: Type) -> tuple[WidestRow, ...]:
+def widest_rows(scenes: Sequence[Scene], type_: Type) -> tuple[Ranked, ...]:
     """Return the rows of a scene, and of those beside it, each with the widest value that it ever has."""
-    widest: dict[str, tuple[int, WidestRow]] = {}
-    for one in (one for scene in scenes for one in _over_a_cycle(scene)):
-        width = type_.width(one.row.value, _MEASURED)
-        if width > widest.get(one.row.label, (-1, one))[0]:
-            widest[one.row.label] = width, one
+    widest: dict[str, tuple[int, Ranked]] = {}
+    for rank, row in (one for scene in scenes for one in _over_a_cycle(scene)):
+        width = type_.width(row.value, _MEASURED)
+        if row.label not in widest or width > widest[row.label][0]:
+            widest[row.label] = width, (rank, row)
     return tuple(one for _, one in widest.values())
 
 
-def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
+def _over_a_cycle(scene: Scene) -> Iterator[Ranked]:
     """Yield the rows with their values over a cycle, at the fastest speed."""
     known, speed = rows_of(scene), _FASTEST * scene.linkage.drive.speed
     for step in range(_TRIED):
-        for rank, row in ranked(known, scene.pose(scene.period * step / _TRIED, speed=speed)):
-            yield WidestRow(rank, row)
-
-
-class Legendary(NamedTuple):
-    """What the legend holds: how many lines of a key to the colours, and the rows of what is listed."""
-
-    keys: int = 0
-    listed: tuple[str, ...] = ()
+        yield from ranked(known, scene.pose(scene.period * step / _TRIED, speed=speed))
 
 
 def columns(
-    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, legend: Legendary, type_: Type
+    scenes: Sequence[Scene],
+    rows: tuple[Ranked, ...],
+    layout: Layout,
+    type_: Type,
+    *,
+    keys: int = 0,
+    listed: tuple[str, ...] = (),
 ) -> Iterator[WordBlock]:
     """Yield the column of words, whole first, then shorter and shorter, at last with nothing in it.
+
+    Its legend has so many lines of a key to the colours, and what is `listed`.
 
     The rows go first, those of the highest rank before others, and the class with those of its rank; then
     the key, then the title; what is listed stays as long as it fits at all. The words are the first scene's,
     with room for those of the others in their place. Without scenes there is the legend alone.
     """
     titled = bool(scenes)
-    ranks = sorted({_CLASS_RANK, *(one.rank for one in rows)}, reverse=True)
-    ways = [(tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK) for rank in ranks]
-    for kept, classed in ways if titled else ():
-        yield _column(scenes, kept, layout, legend, type_, classed=classed)
-    for fewer in (legend, legend._replace(keys=0)):
-        yield _column(scenes, (), layout, fewer, type_, classed=False)
-    yield _column((), (), layout, legend._replace(keys=0), type_, classed=False)
+    column = partial(_column, layout, type_, listed)
+    for rank in sorted({_CLASS_RANK, *(rank for rank, _ in rows)}, reverse=True) if titled else ():
+        kept = tuple(row for own, row in rows if own <= rank)
+        yield column(scenes, kept, keys, classed=rank >= _CLASS_RANK)
+    for fewer in (keys, 0):
+        yield column(scenes, (), fewer)
+    yield column((), (), 0)
     yield WordBlock(layout.text_size)
 
 
 def _column(
-    scenes: Sequence[Scene],
-    rows: tuple[WidestRow, ...],
     layout: Layout,
-    legend: Legendary,
     type_: Type,
+    listed: tuple[str, ...],
+    scenes: Sequence[Scene],
+    rows: tuple[Reading, ...],
+    keys: int,
     *,
-    classed: bool,
+    classed: bool = False,
 ) -> WordBlock:
     size, small, big = layout.text_size, layout.small_size, layout.title_size
     wide = [
-        type_.width(one.row.label, size) + type_.width(one.row.value, size, strong=True) + _GAP * size
-        for one in rows
+        type_.width(row.label, size) + type_.width(row.value, size, strong=True) + _GAP * size for row in rows
     ]
-    if legend.keys:
+    if keys:
         wide.append(_key_width(layout, type_))
-    wide += [type_.width(row, small) for row in legend.listed]
+    wide += [type_.width(row, small) for row in listed]
     least = max(max(wide, default=0.0), _NARROWEST * size if scenes else 0.0)
     room = layout.size[0] - 2 * layout.margin
-    lines: list[WordLine] = []
-    y = 0.0
+    block = WordBlock(size, big)
     if scenes:
         title = said(scenes[0].title)
         title = title if type_.shows(title) else scenes[0].name
         across = min(max(least, type_.narrowest(title, big, 2)), room)
-        for text in type_.wrapped(title, big, across, strong=True) or ("",):
-            lines.append(WordLine(text, y, big, True))
-            y += 1.12 * big
-        y += 0.1 * size
-        across = min(max(across, least), room)
-        for each in (
-            zip_longest(*_classes(scenes, title, size, across, type_), fillvalue="") if classed else ()
-        ):
-            lines.append(WordLine(each[0], y, size, False))
-            y += 1.2 * size
-    width = max([least, *(type_.width(one.text, one.size, strong=one.strong) for one in lines)])
+        lines = tuple(type_.wrapped(title, big, across, strong=True) or ("",))
+        classes = _classes(scenes, title, size, min(max(across, least), room), type_) if classed else ()
+        block = replace(
+            block, title=lines, classes=tuple(each[0] for each in zip_longest(*classes, fillvalue=""))
+        )
+    width = max(
+        [
+            least,
+            *(type_.width(text, big, strong=True) for text in block.title),
+            *(type_.width(text, size) for text in block.classes),
+        ]
+    )
+    *_, (_, y) = block.lines
     first = y + 0.5 * size if rows else y
     note = first + STEP * size * len(rows) + (0.3 * size if rows else 0.0)
     key = note
     if rows:
         words = [words for scene in scenes for words in notes(scene)]
         key += 1.2 * size * max((len(type_.wrapped(one, size, width)) for one in words), default=0)
-    high = KEY_STEP * small * legend.keys + LISTED_STEP * small * len(legend.listed)
-    high += 0.4 * small if legend.keys and legend.listed else 0.0
-    names = frozenset(one.row.label for one in rows)
-    return WordBlock(size, tuple(lines), names, first, note, key, float(width), key + high)
+    high = KEY_STEP * small * keys + LISTED_STEP * small * len(listed)
+    high += 0.4 * small if keys and listed else 0.0
+    names = frozenset(row.label for row in rows)
+    return replace(block, rows=names, first=first, note=note, key=key, width=float(width), height=key + high)
 
 
 def _classes(

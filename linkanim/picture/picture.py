@@ -410,7 +410,7 @@ class Picture:
     @cached_property
     def _hud(self) -> Hud | None:
         block, place = self.composition.block, self.layout.hud
-        if place is None or not block.lines:
+        if place is None or not block.title:
             return None
         return Hud(self.composition.subject.figure.scene, block, place, self.type, self.theme)
 

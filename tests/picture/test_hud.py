@@ -10,7 +10,7 @@ import pytest
 from pictures import inked
 
 from linkanim.mechanics.forces import input_effort
-from linkanim.picture.hud import Hud, Legendary, Reading, columns, note, rows, widest_rows
+from linkanim.picture.hud import Hud, Reading, columns, note, rows, widest_rows
 from linkanim.picture.items import Group
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
@@ -293,16 +293,16 @@ def test_of_too_many_words_those_that_matter_least_go_first() -> None:
     """The rows by their ranks, with the lowest of them the class, then the key, then the title; no list."""
     scene, type_ = load("press"), Type()
     rows = widest_rows((scene,), type_)
-    blocks = [*columns((scene,), rows, layout((640, 360)), Legendary(2, ("r₁ = 1 mm",)), type_)]
+    blocks = [*columns((scene,), rows, layout((640, 360)), type_, keys=2, listed=("r₁ = 1 mm",))]
     assert len(blocks[0].rows) == len(rows)
     assert all(later.rows <= one.rows for one, later in pairwise(blocks))
     assert all(later.height <= one.height for one, later in pairwise(blocks))
-    kept = [{one.rank for one in rows if one.row.label in block.rows} for block in blocks]
+    kept = [{rank for rank, row in rows if row.label in block.rows} for block in blocks]
     for before, after in pairwise(kept):
         assert not before - after or max(after, default=-1) < min(before - after)
     with_key, titled, listed, nothing = blocks[-4:]
-    assert [line.strong for line in with_key.lines] == [line.strong for line in titled.lines]
+    assert with_key.title == titled.title != ()
     assert with_key.height - with_key.key > titled.height - titled.key > 0
-    assert not listed.lines
+    assert not listed.title
     assert listed.height == pytest.approx(titled.height - titled.key)
     assert (nothing.width, nothing.height) == (0, 0)

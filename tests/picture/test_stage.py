@@ -193,8 +193,8 @@ def test_the_title_is_whole_and_the_same_size_in_every_scene(name: str, size: tu
     scene = load(name)
     picture = Picture(scene, size, Look())
     block, parts = picture.composition.block, picture.layout
-    assert " ".join(line.text for line in block.lines if line.strong) == scene.title
-    assert {line.size for line in block.lines if line.strong} == {parts.title_size}
+    assert " ".join(block.title) == scene.title
+    assert block.title_size == parts.title_size
     assert block.size == parts.text_size
     assert any(label.endswith(("angle", "travel")) for label in block.rows)
 

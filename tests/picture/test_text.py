@@ -13,7 +13,7 @@ from pictures import pixels
 
 from linkanim.letters import lacking
 from linkanim.picture import text as fonts
-from linkanim.picture.hud import Legendary, columns
+from linkanim.picture.hud import columns
 from linkanim.picture.layout import layout
 from linkanim.picture.raster import offscreen
 from linkanim.picture.text import Type, runs, subscripted, typesetting
@@ -209,8 +209,8 @@ def test_lines_are_no_wider_than_they_may_be_and_lose_nothing(text: str, width: 
 
 def test_a_title_that_no_font_has_gives_way_to_the_scene_s_name(alone: Type) -> None:
     scene = replace(load("crank-rocker"), name="mine", title="曲柄")
-    block = next(columns((scene,), (), layout((640, 360)), Legendary(), alone))
-    assert block.lines[0].text == "mine"
+    block = next(columns((scene,), (), layout((640, 360)), alone))
+    assert block.title == ("mine",)
 
 
 # Letters that stand clear of each other, that touch, with a subscript, with nothing to be seen among them.
