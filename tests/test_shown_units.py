@@ -96,7 +96,7 @@ def test_hud_chart_arrows_names_table_and_json_agree(
         printed["joints"][joint]["position"], rel=1e-6
     )
     # the arrows' key, the dimensions, and every number of the HUD
-    arrows = picture.drawing.parts.arrows
+    arrows = picture.drawing.arrows
     assert [kind.unit for kind in arrows] == [f"{unit}/s"]
     speeds = [math.hypot(*printed["joints"][one]["velocity"]) for one in scene.trace]
     assert arrows[0].most * SPEED / abs(scene.linkage.drive.speed) >= max(speeds, default=0.0) * (1 - 1e-9)

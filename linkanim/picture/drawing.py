@@ -8,7 +8,6 @@ from itertools import groupby, zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
@@ -44,27 +43,6 @@ _FAINT = 0.78
 """The share of the background in the colours of what is drawn faintly."""
 
 
-@frozen
-class Parts:
-    """All that moves, ready to be placed."""
-
-    wheels: tuple[Part, ...]
-    struts: tuple[Coil | Damping, ...]
-    bodies: tuple[Part, ...]
-    pinned: tuple[tuple[str, ...], ...]
-    """The pins and marks that lie below the first of the bodies, and on each."""
-    pins: Mapping[str, Stamp]
-    mass: Stamp
-    traces: tuple[Trace, ...]
-    marks: Mapping[str, Stamp]
-    inks: tuple[Ink, ...]
-    arrows: tuple[Arrows, ...]
-    turning: Turning | Sliding | None
-    legs: tuple[Part, ...]
-    centres: Centres | None
-    chain: CausalChain | None
-
-
 class Drawing:
     """A scene's linkage at one view and look, at any pose.
 
@@ -77,9 +55,100 @@ class Drawing:
         self._placed: tuple[Pose, Places] | None = None
 
     @cached_property
-    def parts(self) -> Parts:
-        """All that moves."""
-        return _parts(self.setting, self.symbols, self._moment)
+    def turning_wheels(self) -> tuple[Part, ...]:
+        """What turns of gears and belts."""
+        return wheel_parts(self.setting)
+
+    @cached_property
+    def struts(self) -> tuple[Coil | Damping, ...]:
+        """The springs, dampers and cylinders."""
+        return (*coils(self.setting), *dampings(self.setting))
+
+    @cached_property
+    def bodies(self) -> tuple[Part, ...]:
+        """The bars and plates, back to front."""
+        bodies = body_parts(self.setting)
+        return tuple(self.chain.coloured(bodies, self.setting.figure)) if self.chain else bodies
+
+    @cached_property
+    def pinned(self) -> tuple[tuple[str, ...], ...]:
+        """The pins and marks that lie below the first of the bodies, and on each."""
+        pins = self.setting.figure.pins
+        marked = [trace.joint for trace in self._curves if trace.joint not in pins]
+        return by_depth(self.bodies, (*pins, *marked))
+
+    @cached_property
+    def pins(self) -> Mapping[str, Stamp]:
+        """How each pin is drawn."""
+        figure, _, gauge, theme = self.setting.known
+        return self.chain.pins(gauge) if self.chain else dict.fromkeys(figure.pins, pin_stamp(gauge, theme))
+
+    @cached_property
+    def mass(self) -> Stamp:
+        """How a centre of mass is drawn."""
+        return mass_stamp(self.setting.gauge, self.setting.theme)
+
+    @cached_property
+    def _curves(self) -> tuple[Trace, ...]:
+        """The curves of traced points, in ink or not."""
+        return traces(self.setting) if self.setting.look.trace or self.setting.look.ink else ()
+
+    @property
+    def traces(self) -> tuple[Trace, ...]:
+        """The curves that are drawn as lines."""
+        return () if self.setting.look.ink else self._curves
+
+    @cached_property
+    def marks(self) -> Mapping[str, Stamp]:
+        """How the point of each curve is drawn."""
+        gauge, theme = self.setting.gauge, self.setting.theme
+        return {curve.joint: mark_stamp(curve.colour, gauge, theme) for curve in reversed(self._curves)}
+
+    @cached_property
+    def inks(self) -> tuple[Ink, ...]:
+        """The curves in ink."""
+        if not self.setting.look.ink:
+            return ()
+        from linkanim.picture.ink import inks
+
+        return inks(self.setting)
+
+    @cached_property
+    def arrows(self) -> tuple[Arrows, ...]:
+        """The velocity and acceleration arrows, and forces."""
+        figure, _, gauge, theme = self.setting.known
+        return arrows_for(figure, self.setting.look, self.setting.layout, gauge, theme, self._moment)
+
+    @cached_property
+    def turning(self) -> Turning | Sliding | None:
+        """The mark of the input's motion."""
+        return motion_of(self.setting) if self.setting.look.names else None
+
+    @cached_property
+    def legs(self) -> tuple[Part, ...]:
+        """The dashed legs to points that are stated along a body."""
+        _, view, gauge, theme = self.setting.known
+        points = self.symbols.points if self.symbols else ()
+        return tuple(leg_part(point, view, gauge, theme.dim) for point in points)
+
+    @cached_property
+    def centres(self) -> Centres | None:
+        """The instant centres, where they are shown."""
+        if not self.setting.look.centres:
+            return None
+        from linkanim.picture.centres import Centres
+
+        return Centres(self.setting)
+
+    @cached_property
+    def chain(self) -> CausalChain | None:
+        """The colours of the steps in which joints are solved, where they are shown."""
+        if not self.setting.look.chain:
+            return None
+        from linkanim.mechanics.analysis import solving_steps
+        from linkanim.picture.bodies import CausalChain
+
+        return CausalChain(solving_steps(self.setting.figure.linkage), self.setting.theme)
 
     @cached_property
     def symbols(self) -> Symbols | None:
@@ -112,7 +181,7 @@ class Drawing:
 
     def wheels(self, places: Places) -> Iterator[Group]:
         """Yield the turning parts of wheels; a wheel that stays in place looks the same after every tooth."""
-        for n, part in enumerate(self.parts.wheels):
+        for n, part in enumerate(self.turning_wheels):
             key = (n, part.turn(places)) if part.fold > 1 else None
             yield Group(f"wheel-{part.head}", part.placed(places), key=key, made_of=part)
 
@@ -137,9 +206,9 @@ class Drawing:
         yield Group("ground", ground_layers(self.setting), still=True)
         if look.names:
             yield Group("ground-line", ground_line(pivots(figure), self.setting), still=True)
-        for ink in self.parts.inks:
+        for ink in self.inks:
             yield Group(f"ink-{ink.joint}", ink.layers, still=True, made_of=ink)
-        for trace in self.parts.traces:
+        for trace in self.traces:
             yield Group(f"curve-{trace.joint}", [trace.whole()], still=True, made_of=trace)
         if self._rolling:
             yield Group("fixed-centrode", [self._rolling.fixed()], still=True)
@@ -149,49 +218,49 @@ class Drawing:
     @property
     def _rolling(self) -> Centres | None:
         """The instant centres, where their centrodes are shown."""
-        return self.parts.centres if self.setting.look.centres > 1 else None
+        return self.centres if self.setting.look.centres > 1 else None
 
     def moving(self, pose: Pose, names: Names, taken: Iterable[Rect] = ()) -> Iterator[Group]:
         """Yield all that moves, back to front; names of arrows and far centres keep off what is `taken`."""
-        places, parts = self.places(pose), self.parts
+        places = self.places(pose)
         if self._rolling:
             yield Group("moving-centrode", [self._rolling.moving(places)])
-        for trace in parts.traces:
+        for trace in self.traces:
             recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
             yield Group(f"recent-{trace.joint}", recent, made_of=trace)
-        for item, strut in zip(self.setting.figure.struts, parts.struts, strict=True):
+        for item, strut in zip(self.setting.figure.struts, self.struts, strict=True):
             yield Group(f"strut-{item.name}", strut.layers(places), made_of=strut)
         yield from self._pinned(places)
-        yield Group("dimensions", placed(parts.legs, places), made_of=parts.legs)
-        yield Group("input", list(self._turning(pose, places)), made_of=parts.turning)
+        yield Group("dimensions", placed(self.legs, places), made_of=self.legs)
+        yield Group("input", list(self._turning(pose, places)), made_of=self.turning)
         masses = [self.setting.view.pixel(at) for at in pose.com_position.values()]
-        yield Group("centres-of-mass", parts.mass.at(masses), made_of=parts.mass)
+        yield Group("centres-of-mass", self.mass.at(masses), made_of=self.mass)
         arrows, busy = (
-            arrow_layers(parts.arrows, pose, self.setting.view, self.setting.figure.moving),
+            arrow_layers(self.arrows, pose, self.setting.view, self.setting.figure.moving),
             [*taken],
         )
-        named = names.arrow_names(parts.arrows, pose, busy, self.setting) if parts.arrows else ()
-        for kind, layers, symbols_ in zip(parts.arrows, arrows, named, strict=True):
+        named = names.arrow_names(self.arrows, pose, busy, self.setting) if self.arrows else ()
+        for kind, layers, symbols_ in zip(self.arrows, arrows, named, strict=True):
             yield Group(kind.words, layers, symbols_, made_of=kind)
             busy += [line.around(self.setting.type) for line in symbols_]
-        if centres := parts.centres:
+        if centres := self.centres:
             words = names.centre_names(centres, pose, busy)
             yield Group("instant-centres", [*centres.layers(pose)], words, made_of=centres)
 
     def swinging(self, places: Places) -> Iterator[Group]:
         """Yield the linkage between two closures, its joints at `places`: bodies there have another shape."""
-        for item, strut in zip(self.setting.figure.struts, self.parts.struts, strict=True):
+        for item, strut in zip(self.setting.figure.struts, self.struts, strict=True):
             yield Group(f"strut-{item.name}", strut.layers(places))
         yield from self._pinned(places, body_parts(self.setting, places))
 
     def heads(self, pose: Pose) -> list[complex]:
         """Return where the heads of velocity and acceleration arrows lie in a pose."""
         known = pose, self.setting.view, self.setting.figure.moving
-        return [one.foot + one.reach for kind in self.parts.arrows for one in kind.seen(*known)]
+        return [one.foot + one.reach for kind in self.arrows for one in kind.seen(*known)]
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the arrow of the input's motion, and its angle."""
-        turning, drive = self.parts.turning, self.setting.figure.linkage.drive
+        turning, drive = self.turning, self.setting.figure.linkage.drive
         if isinstance(turning, Turning) and self.setting.look.names > 1:
             yield from turning.angle(places)
         if turning and pose.input_speed:
@@ -199,7 +268,7 @@ class Drawing:
 
     def _pinned(self, places: Places, bodies: tuple[Part, ...] | None = None) -> Iterator[Group]:
         """Yield the bodies with their pins, each pin at the depth of its own links."""
-        for names, part in zip_longest(self.parts.pinned, bodies or self.parts.bodies):
+        for names, part in zip_longest(self.pinned, bodies or self.bodies):
             for together in [(name,) for name in names] if self._apart else [names]:
                 shapes = self._stamped(together, places)
                 yield Group("-".join(("joint", *together)), shapes, made_of=self._pin(together))
@@ -216,56 +285,12 @@ class Drawing:
     def _stamped(self, names: tuple[str, ...], places: Places) -> list[Layer]:
         pins = [name for name in names if name in self.setting.figure.pins]
         layers = []
-        for stamp, alike in groupby(pins, self.parts.pins.__getitem__):
+        for stamp, alike in groupby(pins, self.pins.__getitem__):
             layers += stamp.at([places[name] for name in alike])
         for name in names:
-            if name in self.parts.marks:
-                layers += self.parts.marks[name].at([places[name]])
+            if name in self.marks:
+                layers += self.marks[name].at([places[name]])
         return layers
-
-
-def _parts(setting: DrawSetting, known: Symbols | None, moment: float | None) -> Parts:
-    figure, view, gauge, theme = setting.known
-    look = setting.look
-    curves = traces(setting) if look.trace or look.ink else ()
-    bodies = body_parts(setting)
-    chain = _chain(setting) if look.chain else None
-    marked = [trace.joint for trace in curves if trace.joint not in figure.pins]
-    return Parts(
-        wheels=wheel_parts(setting),
-        struts=(*coils(setting), *dampings(setting)),
-        bodies=tuple(chain.coloured(bodies, figure)) if chain else bodies,
-        pinned=by_depth(bodies, (*figure.pins, *marked)),
-        pins=chain.pins(gauge) if chain else dict.fromkeys(figure.pins, pin_stamp(gauge, theme)),
-        mass=mass_stamp(gauge, theme),
-        traces=() if look.ink else curves,
-        marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
-        inks=_inks(setting) if look.ink else (),
-        arrows=arrows_for(figure, look, setting.layout, gauge, theme, moment),
-        turning=motion_of(setting) if look.names else None,
-        legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
-        centres=_centres(setting) if look.centres else None,
-        chain=chain,
-    )
-
-
-def _inks(setting: DrawSetting) -> tuple[Ink, ...]:
-    from linkanim.picture.ink import inks
-
-    return inks(setting)
-
-
-def _centres(setting: DrawSetting) -> Centres:
-    from linkanim.picture.centres import Centres
-
-    return Centres(setting)
-
-
-def _chain(setting: DrawSetting) -> CausalChain:
-    from linkanim.mechanics.analysis import solving_steps
-    from linkanim.picture.bodies import CausalChain
-
-    return CausalChain(solving_steps(setting.figure.linkage), setting.theme)
 
 
 def _somewhere(place: complex) -> complex:

@@ -328,7 +328,7 @@ class Picture:
     @cached_property
     def _moves_behind(self) -> bool:
         """Whether something moves behind what else stands still."""
-        return self._apart or bool(self.drawing.parts.wheels) or self.look.ghost
+        return self._apart or bool(self.drawing.turning_wheels) or self.look.ghost
 
     def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         """Yield the chart's cursor with the values there, and its grip where it can be grasped."""
@@ -367,8 +367,8 @@ class Picture:
         """Yield the words about the scene."""
         if self._overruns and self._legend:
             yield self._legend.group(pose.input_speed)
-        if self.drawing.parts.centres and self.layout.legend:
-            yield Group("far-centres", (), [*self._far_centres(self.drawing.parts.centres, pose)])
+        if self.drawing.centres and self.layout.legend:
+            yield Group("far-centres", (), [*self._far_centres(self.drawing.centres, pose)])
         if self._hud is None:
             return
         values = self._hud.values(pose)
@@ -416,7 +416,7 @@ class Picture:
 
     @cached_property
     def _legend(self) -> Legend | None:
-        parts = self.drawing.parts
+        parts = self.drawing
         chain = parts.chain.colours if parts.chain else ()
         ink = parts.inks[0].scale if parts.inks else None
         listed = tuple(label.row for label in self.names.listed)

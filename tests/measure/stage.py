@@ -118,7 +118,7 @@ class _Frame:
         self.pins = {name: self.places[name] for name in figure.pins}
         self.heads = [
             (one.of, one.foot + one.reach)
-            for kind in picture.drawing.parts.arrows
+            for kind in picture.drawing.arrows
             for one in kind.seen(pose, picture.view, figure.moving)
         ]
         led = {label.of for label in picture.names.labels if label.leader}

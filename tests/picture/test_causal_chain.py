@@ -41,7 +41,7 @@ CHAINS = {
 @pytest.mark.parametrize("name", CHAINS)
 def test_links_fade_in_the_order_in_which_they_move_each_other(name: str, theme: Theme) -> None:
     look = Look(chain=True, theme="light" if theme is LIGHT else "dark", material="flat")
-    parts = Picture(load(name), (320, 180), look).drawing.parts.bodies
+    parts = Picture(load(name), (320, 180), look).drawing.bodies
     coloured = ((part.name, layer.colour) for part in parts for layer in part.layers)
     fill = {name: colour for name, colour in coloured if colour != theme.outline}
     shades = [contrast(fill[body], theme.background) for body in CHAINS[name]]

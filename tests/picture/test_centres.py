@@ -27,7 +27,7 @@ def drawing(name: str, centres: int) -> Drawing:
 
 
 def found(name: str, centres: int = 2) -> Centres:
-    marks = drawing(name, centres).parts.centres
+    marks = drawing(name, centres).centres
     assert marks is not None
     return marks
 
@@ -144,8 +144,8 @@ def test_what_is_a_joint_has_no_cross() -> None:
     pose = picture.scene.pose(0.9, 2)
     (marked,) = [group for group in picture.groups(pose) if group.name == "instant-centres"]
     lines, marks = marked.layers
-    assert picture.drawing.parts.centres
-    free = [seen for seen in picture.drawing.parts.centres.seen(pose) if not seen.jointed]
+    assert picture.drawing.centres
+    free = [seen for seen in picture.drawing.centres.seen(pose) if not seen.jointed]
     assert len(free) == 2
     assert len(marks.loops) == sum(1 if seen.direction else 2 for seen in free)
     assert lines.loops

@@ -92,7 +92,7 @@ def test_a_point_that_stands_still_has_no_ink() -> None:
     still = replace(load("crank-rocker"), trace=("O4",))
     assert [layer for ink in inks(context(still)) for layer in ink.layers] == []
     assert ink_scale(context(still)).greatest_words(1.0) == "–"
-    assert Picture(still, (320, 180), Look(ink=True)).drawing.parts.inks
+    assert Picture(still, (320, 180), Look(ink=True)).drawing.inks
 
 
 @pytest.mark.parametrize("name", names())

@@ -401,7 +401,7 @@ def test_every_moving_joint_has_its_arrow_and_its_name(name: str) -> None:
     pose = picture.scene.pose(1.0)
     group = next(group for group in picture.groups(pose) if group.name == "velocity")
     named = {words.text for words in group.captions}
-    scale = picture.drawing.parts.arrows[0].scale(pose.input_speed)
+    scale = picture.drawing.arrows[0].scale(pose.input_speed)
     for joint in picture.figure.in_view:
         alike = [one for one in picture.figure.in_view if pose.position[one] == pose.position[joint]]
         if scale * math.hypot(*pose.velocity[joint]) > picture.layout.small_size:
@@ -608,7 +608,7 @@ def test_arrows_of_a_still_are_to_its_own_scale_and_named_off_the_bars() -> None
     longest = [
         max(
             abs(seen.reach)
-            for seen in picture.drawing.parts.arrows[0].seen(pose, picture.view, picture.figure.moving)
+            for seen in picture.drawing.arrows[0].seen(pose, picture.view, picture.figure.moving)
         )
         for picture in (still, moving)
     ]

@@ -40,7 +40,7 @@ def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
     """Also below the horizontal, where a swing's angle is negative; its symbol stays at the arc."""
     scene = load(name)
     painter = Picture(scene, (1280, 720), Look(names=2))
-    turning, swings = painter.drawing.parts.turning, not scene.info.full_turn
+    turning, swings = painter.drawing.turning, not scene.info.full_turn
     assert isinstance(turning, Turning)
     for phase in np.linspace(0.1, 6.2, 9):
         angle = scene.pose(float(phase)).coordinate
@@ -113,7 +113,7 @@ def test_links_are_called_by_their_names_or_where_one_has_no_room_all_by_their_n
 def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: str) -> None:
     scene = load(name)
     painter = Picture(scene, (1280, 720), replace(BARE, names=1))
-    turning, drive = painter.drawing.parts.turning, scene.linkage.drive
+    turning, drive = painter.drawing.turning, scene.linkage.drive
     assert isinstance(turning, Turning)
     for phase, speed in ((1.0, drive.speed), (1.0, -drive.speed), (4.0, 3 * drive.speed)):
         pose = scene.pose(phase, speed=speed)
@@ -129,7 +129,7 @@ def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: st
 def test_the_arrow_runs_the_way_the_driven_slider_does() -> None:
     scene = load("driven-piston")
     painter = Picture(scene, (1280, 720), replace(BARE, names=2))
-    sliding, drive = painter.drawing.parts.turning, scene.linkage.drive
+    sliding, drive = painter.drawing.turning, scene.linkage.drive
     assert isinstance(sliding, Sliding)
     for phase, speed in ((1.0, drive.speed), (1.0, -drive.speed), (4.0, 3 * drive.speed)):
         pose = scene.pose(phase, speed=speed)
@@ -160,7 +160,7 @@ def test_a_leg_s_dashes_lead_to_its_point_and_stand_apart(line: float) -> None:
 @pytest.mark.parametrize("line", [0.7, 1.4, 3.0])
 def test_the_angle_is_measured_from_a_line_of_dashes(line: float) -> None:
     scene = load("crank-rocker")
-    turning = Picture(scene, (1280, 720), replace(BARE, names=2)).drawing.parts.turning
+    turning = Picture(scene, (1280, 720), replace(BARE, names=2)).drawing.turning
     assert isinstance(turning, Turning)
     turning = replace(turning, gauge=replace(turning.gauge, line=line))
     _, ink = turning.angle({turning.pivot: 0j, turning.pin: 100j})
@@ -174,7 +174,7 @@ def test_an_input_that_stands_still_has_no_arrow() -> None:
     scene = load("crank-rocker")
     painter = Picture(scene, (640, 360), replace(BARE, names=1))
     SurfacePrinter().paint(offscreen((640, 360)), painter, scene.pose(1.0, speed=0.0))
-    turning, still = painter.drawing.parts.turning, scene.pose(1.0, speed=0.0)
+    turning, still = painter.drawing.turning, scene.pose(1.0, speed=0.0)
     assert turning
     assert turning.direction(still, painter.drawing.places(still), 1.0) == []
 
