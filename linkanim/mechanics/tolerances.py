@@ -58,6 +58,8 @@ OFF = 2.0**-46
 grows with that distance, as coordinates lose digits of a bar."""
 BARELY = 1 / 64
 """Share of its greatest value below which a margin that turns back costs results their digits."""
+LOW = 1 / 16
+"""The same where a margin rises from a limit: it costs rates, which lose twice as many, more digits."""
 FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""
 USED_UP = 1e-10
@@ -70,6 +72,8 @@ NARROWEST_AT_A_LIMIT = 1e-12
 """The same at a limit, beside which the margin grows the faster, the nearer another limit lies behind it."""
 LAST = 1e-17
 """Share of the first coefficient that a fit's last ones should not exceed."""
+LAST_BEYOND = 1e-19
+"""The same of fits that do not begin at a zero: by their rates they are off some hundred times as much."""
 TOLERABLE = 1e-13
 """Share that they must not exceed: rounded constants leave kinks of 1e-16 where a loop changes its side."""
 WIDE = 1 / 16

@@ -152,12 +152,28 @@ class SignedDistance(NamedTuple):
 class Near(NamedTuple):
     """The fits next to a zero: R, and D over the argument where the ends of equal bars meet there.
 
-    `least` is the margin's least value where that is not zero: then R² is fitted.
+    `least` is the margin's least value where that is not zero: then R² is fitted. From a limit on, R has
+    further fits `beyond` the first, where the margin stays low for long.
     """
 
     root: PolynomialFit
     across: tuple[PolynomialFit, PolynomialFit] | None = None
     least: float = 0.0
+    beyond: tuple[PolynomialFit, ...] = ()
+
+    @property
+    def width(self) -> float:
+        """How far from the zero the fits hold."""
+        return (self.root, *self.beyond)[-1].width
+
+    def smooth(self, argument: Moving) -> Moving:
+        """Return R, or R²."""
+        value, inner = self.root.at(argument), self.root.width
+        for fit in self.beyond:
+            pairs = zip(value, fit.at(argument), strict=True)
+            value = Moving(*(select(argument.value, inner, near, far) for near, far in pairs))
+            inner = fit.width
+        return value
 
     def root_at(self, z: Moving, fitted: Moving) -> Moving:
         """Return √(least + z²R²)."""
@@ -420,12 +436,12 @@ def _root_near(
     `there` has the distance from the zero, and the sign of the closure without that zero's share.
     """
     distance, others = there
-    fitted = near.root.at(distance.argument)
+    fitted = near.smooth(distance.argument)
     q = near.root_at(distance.z, fitted)
     rho = zero.rates(closing, q, state) if isinstance(zero, NearTouch) else closing.rates(q)
 
     def chosen(close: Value, otherwise: Value) -> Value:
-        return zero.chosen(distance, near.root.width, close, otherwise)
+        return zero.chosen(distance, near.width, close, otherwise)
 
     root = SignedRoot(
         chosen(q.value * others, far.q),

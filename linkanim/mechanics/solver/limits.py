@@ -42,6 +42,7 @@ from linkanim.mechanics.solver.closing import (
     Stationary,
     Touch,
     Walk,
+    Zero,
     walk_at,
     walking,
 )
@@ -55,6 +56,8 @@ from linkanim.mechanics.tolerances import (
     FLAT,
     JUST_AFTER,
     LAST,
+    LAST_BEYOND,
+    LOW,
     NARROWEST,
     NARROWEST_AT_A_LIMIT,
     NEARBY,
@@ -108,6 +111,8 @@ POINTS_OF_A_DIP = 32
 """Samples of a near touch's fit, which has to hold as far as the margin lacks digits: that may be far."""
 WIDEST = 0.5
 TRIES = 16
+MOST_FITS = 12
+"""The most fits that follow a limit's first one."""
 
 
 class ExactWalk:
@@ -217,12 +222,15 @@ def fitted(assembly: Assembly) -> Assembly:
 
 
 def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
+    low = LOW * root.least / NO_DIGITS
     with localcontext(context()):
         near_touches = _exact_near_touches(exact, name, root.near_touches)
         samplers = _samplers(exact, name)
         return replace(
             root,
-            zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in root.zeros),
+            zeros=tuple(
+                replace(zero, near=_near_a_zero(name, zero, low, *samplers(zero))) for zero in root.zeros
+            ),
             near_touches=tuple(
                 replace(near_touch, near=_near_a_touch(name, near_touch, near_touches, *samplers(near_touch)))
                 for near_touch in near_touches
@@ -295,6 +303,39 @@ def _near(name: str, zero: Fitted, sampled: Callable[[Decimal], Sample], width: 
         why = PARTING if meeting else TOO_NEAR if isinstance(zero, End) else TURNING_BACK
         raise AssemblyError(f"joint {name}: {why}")
     return best
+
+
+def _near_a_zero(
+    name: str, zero: Zero, low: float, sampled: Callable[[Decimal], Sample], width: float
+) -> Near | None:
+    """Fit next to a zero; next to a limit with fits that follow for as long as the margin is below `low`.
+
+    Where a loop before moves quickly beside the limit, each holds only about as far as it is away from there.
+    """
+    near = _near(name, zero, sampled, width)
+    if near is None or near.across or not isinstance(zero, End) or _margin_at_end(near.root) >= low:
+        return near
+    fits = [near.root._replace(width=near.root.width / 2)]
+    margin = 0.0
+    while (edge := fits[-1].width) < width and margin < low and len(fits) <= MOST_FITS:
+        way, last = min(3 * edge, width - edge), math.inf
+        while last > LAST_BEYOND and way > edge / 8:
+            stretch = edge + way, edge + way / 2, way / 2
+            places = [Decimal(stretch[1]) + Decimal(stretch[2]) * node for node in nodes(POINTS)]
+            samples = [sampled(place) for place in places]
+            fit = _fit(stretch, samples, [square.sqrt() for square in _squares(samples, Decimal(0))])
+            last = _last([fit])
+            way *= max(min(0.8 * (LAST_BEYOND / last) ** (1 / POINTS), 0.8), 0.1)
+        if last > LAST_BEYOND:
+            break
+        fits.append(fit)
+        margin = _margin_at_end(fit)
+    return near._replace(root=fits[0], beyond=tuple(fits[1:])) if fits[1:] else near
+
+
+def _margin_at_end(fit: PolynomialFit) -> float:
+    """Return the margin where a fit beside a limit ends."""
+    return fit.width * sum(fit.coefficients) ** 2
 
 
 _Stretch = tuple[float, float, float]
