@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field, replace
 from functools import cached_property
+from math import remainder, tau
 from typing import Any, Generic, TypeVar
 
+from linkanim import units
 from linkanim.build.draft import DRIVE, Draft, Thing, numbered
 from linkanim.build.places import sides
 from linkanim.build.pose_form import draft_of_group
@@ -18,13 +20,15 @@ from linkanim.build.scene_form import Made, made, phase_of, photo_of, table_of
 from linkanim.frozen import frozen
 from linkanim.mechanics.groups import group_of
 from linkanim.mechanics.linkage import RRP, RRR
-from linkanim.scenes.file_form import SHORTHANDS
+from linkanim.scenes.file_form import POINTS_FORM, SHORTHANDS
 from linkanim.scenes.links import in_degrees
 from linkanim.scenes.scene import Scene
 
 # A draft being edited: what is drawn, what is chosen, what was typed, undo and redo.
 
 _KEPT = 200
+_SAME = 1e-9
+"""Radians; the pose of a drawing has fewer digits than a start that was typed."""
 Kept = TypeVar("Kept")
 Step = tuple[Kept, tuple[Kept, ...], tuple[Kept, ...]]
 """The value after a step of undo or redo, and then the past and the future."""
@@ -99,9 +103,9 @@ def as_drawn(building: Building) -> Building:
     if made.scene is None or not made.by_points:
         return building
     draft, at = building.draft, phase_of(made.scene, building.draft.places, by_points=True)
-    if "start" in draft.drive:
-        start = in_degrees(made.scene.linkage.drive.start)
-        draft = draft.having(*DRIVE, {**draft.drive, "start": start})
+    start = made.scene.linkage.drive.start
+    if "start" in draft.drive and abs(remainder(start - units.angle(draft.drive["start"]), tau)) > _SAME:
+        draft = draft.having(*DRIVE, {**draft.drive, "start": in_degrees(start)})
     draft = replace(draft, phase=at, typed=draft.typed - {(*DRIVE, "start")})
     return knowing(replace(building, draft=draft), made)
 
@@ -168,7 +172,7 @@ _JUST_AFTER = 0.01
 
 def building_of(scene: Scene) -> Building:
     """Return a building that begins with a scene: its draft makes an equal scene."""
-    if group_of(scene.linkage) is None:
+    if group_of(scene.linkage) is None and scene.document.get("form") != POINTS_FORM:
         return Building(draft_of(scene))
     # the building makes this scene, whatever rounding its draft has
     return as_drawn(knowing(Building(draft_of(scene)), Made(scene, "", by_points=True)))
@@ -190,6 +194,8 @@ def draft_of(scene: Scene) -> Draft:
     if scene.trace:
         rest["trace"] = {"joints": list(scene.trace)}
     phase = _JUST_AFTER if any(getattr(joint, "side_of", None) for joint in scene.linkage.joints) else 0.0
+    if document.get("form") == POINTS_FORM:  # put together as it is drawn, which no limit shows
+        phase = scene.mechanism.phase_of(scene.linkage.drive.start, 0.0)
     draft = Draft(dict(scene.pose(phase, 0).position), rest=rest, short=short or None, phase=phase)
     if "photo" in document:
         draft = replace(draft, photo=photo_of(document["photo"], scene.length_unit))

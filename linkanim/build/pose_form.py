@@ -174,6 +174,8 @@ def _drive(draft: Draft, links: _Links) -> dict[str, Any]:
     if "cylinder" in stated:
         cylinder = {key: value for key, value in stated["cylinder"].items() if key != "joint"}
         kept["cylinder"] = cylinder
+        if crank_of(draft, str(draft.driven)) not in draft.of("pins"):
+            return kept
     return _motor(draft, links, str(draft.driven)) | kept
 
 
@@ -221,8 +223,8 @@ class _Apart:
 
     def draft(self) -> Draft:
         """Return the draft."""
-        members, driven = self.group.members, self.group.driven_slide
-        if driven and (driven.on != GROUND or driven.turns):
+        members, pins = self.group.members, self.group.by_name[GROUND].points
+        if self.cylinder and not {*self.cylinder["between"]} & {*pins}:
             reason = said("is driven by a length between moving links, which a sheet does not draw")
             raise BadInput(f"{self.scene.name}: {reason}")
         places = {name: place for one in members for name, place in zip(one.points, one.places, strict=True)}
@@ -231,12 +233,13 @@ class _Apart:
         rest |= {"title": self.scene.title, "length_unit": self.scene.length_unit}
         draft = Draft({name: places[name] for name in order}, rest=rest, short=None)
         written = self.document["points"]
-        for name in self.group.by_name[GROUND].points:
+        for name in pins:
             keeps = isinstance(written[name], list)
             draft = draft.having("pins", name, written[name] if keeps else [*places[name]])
         for one in members:
             draft = self._with_link(draft, one) if one.name != GROUND else draft
-        for slide in sorted(self.group.slides, key=lambda one: self.group.line(one) is None):
+        drawn = [slide for slide in self.group.slides if not self.cylinder or slide.name != self.group.driven]
+        for slide in sorted(drawn, key=lambda one: self.group.line(one) is None):
             draft = self._with_slide(draft, slide)
         draft = self._with_gears(draft)
         for kind in ("springs", "dampers"):
@@ -314,16 +317,19 @@ class _Apart:
 
     def _with_gears(self, draft: Draft) -> Draft:
         for gear in self.group.gears:
-            arms = [self._crank(name) for name in gear.links]
-            if gear.carrier != GROUND or not all(arms):
+            mates, own = (self._crank(name) for name in gear.links)
+            ends = self.base.get(gear.links[1], ())
+            if own is None and mates and mates[1] in ends:  # a geared bar on its mate's end
+                own = mates[1], ends[1 - ends.index(mates[1])]
+            if gear.carrier != GROUND or not (mates and own):
                 raise BadInput(f"{self.scene.name}: gears between moving links are not drawn on a sheet")
-            (_, mate), (_, joint) = (arm for arm in arms if arm)
+            (_, mate), (_, joint) = mates, own
             if gear.motor:
                 speed = self.document["drives"][gear.name]["speed"]
                 draft = draft.having("drives", joint, {"speed": speed})
                 continue
-            own, other = (place_of(draft, arm[1]) - place_of(draft, arm[0]) for arm in arms[::-1] if arm)
-            offset = remainder(phase(own) - float(gear.ratio) * phase(other), 2 * pi)
+            turn, other = (place_of(draft, arm[1]) - place_of(draft, arm[0]) for arm in (own, mates))
+            offset = remainder(phase(turn) - float(gear.ratio) * phase(other), 2 * pi)
             ratio = int(gear.ratio) if gear.ratio.denominator == 1 else str(gear.ratio)
             table = {"with": mate, "ratio": ratio, "offset": in_degrees(offset)}
             draft = draft.having("gears", joint, table)
@@ -338,6 +344,9 @@ class _Apart:
     def _drive(self, draft: Draft) -> dict[str, Any]:
         stated = self.document["drive"]
         kept = {key: stated[key] for key in ("speed", "returns") if key in stated}
+        if self.cylinder:
+            arm = next(name for name in self.cylinder["between"] if name not in draft.of("pins"))
+            return {"cylinder": {**self.cylinder, "joint": arm}, **kept}
         if slide := self.group.driven_slide:
             ends = self.scene.linkage.drive.actuator.stated_lengths
             slider = dict(zip(("joint", "from", "to"), (slide.point, *ends), strict=True))
@@ -347,6 +356,12 @@ class _Apart:
         pivot, joint = self._crank(self.group.crank) or ("", "")
         arm = place_of(draft, joint) - place_of(draft, pivot)
         return {"joint": joint, "start": in_degrees(phase(arm)), **kept}
+
+    @property
+    def cylinder(self) -> Mapping[str, Any] | None:
+        """The cylinder that drives, as the file states it; None where another thing does."""
+        stated: Mapping[str, Any] | None = self.document["drive"].get("cylinder")
+        return stated
 
     @property
     def _size(self) -> float:

@@ -482,7 +482,8 @@ def phase_of(
         solved, start = scene.mechanism, scene.linkage.drive.start
         ways = (n * scene.period / (_WAYS * solved.periods) for n in range(_WAYS * solved.periods))
         candidates = dict.fromkeys(round(solved.phase_of(start, way), 12) for way in ways)
-        return min((0.0, *candidates), key=partial(_off, scene, places))
+        within = (phase for phase in candidates if phase < round(scene.period, 12))  # a whole period on is 0
+        return min((0.0, *within), key=partial(_off, scene, places))
     if scene.info.full_turn and not swung:
         return 0.0
     driven = places[scene.linkage.drive.joint]

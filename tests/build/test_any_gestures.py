@@ -64,8 +64,8 @@ def somewhere(random: Random, building: Building) -> str:
     return paper(random)
 
 
-def after(seed: int, steps: int) -> None:
-    """Make so many gestures, and look at what comes of each."""
+def after(seed: int, steps: int) -> bool:
+    """Make so many gestures, and look at what comes of each; return whether the last one leaves what moves."""
     random = Random(seed)
     session = gestures(random.choice(SESSIONS).lines) if seed % 2 else []
     building = drawn_so_far(session[: random.randint(0, len(session))])
@@ -84,11 +84,25 @@ def after(seed: int, steps: int) -> None:
         building = undo(building)
     assert building.draft == Building().draft
     assert building.made.missing == EMPTY
+    return scene is not None
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_any_gestures(seed: int) -> None:
     after(seed, 25)
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [
+        pytest.param(1115, id="a typed start stays as it was typed"),
+        pytest.param(1340, id="a dyad stands at its limit at phase 0"),
+        pytest.param(1344, id="the drawn pose is a whole period on"),
+        pytest.param(2820, id="a cylinder, and a gear on a geared crank, in links that are solved together"),
+    ],
+)
+def test_what_a_hand_drew_is_there_again(seed: int) -> None:
+    assert after(seed, 25)
 
 
 @pytest.mark.long
