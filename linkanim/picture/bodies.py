@@ -49,7 +49,7 @@ _CLEAR = 1.2
 """How far from the joints a slot ends, in half widths of a bar."""
 _HOOK, _BENT = 2.6, 4.2
 """A hook's radius at most, in half widths of a bar, and its bend in radians."""
-_ROUND = 1.0
+ROUND = 1.0
 """How far a wheel extends beyond its furthest joint, in half widths of a bar."""
 _PAD = (3.6, 2.2)
 """A pad's width between its round ends and how far from its bar's middle it lies, in half widths of a bar."""
@@ -84,7 +84,7 @@ def _wheel(points: list[complex], gauge: Gauge, colours: Colours, radius: float 
 
 def wheel_radius(points: list[complex], gauge: Gauge) -> float:
     """Return a wheel's radius: it reaches round the furthest of its joints."""
-    return max(map(abs, points)) + _ROUND * gauge.bar
+    return max(map(abs, points)) + ROUND * gauge.bar
 
 
 def _slot(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer]:
@@ -241,7 +241,7 @@ def _body(body: Body, points: list[complex], worked: list[Bar], context: DrawCon
 
 # The material of bodies: a soft shadow on what is below, a highlight along the upper edge of a bar.
 
-_SHADOW, _DARK = 0.18 + 0.42j, 0.15
+SHADOW, _DARK = 0.18 + 0.42j, 0.15
 """How far a shadow lies off, in half widths of a bar, and how dark it is."""
 _SHINE, _HAIR = 0.5, 0.9
 """The share of white in a highlight, and its width in widths of a thin line."""
@@ -254,7 +254,7 @@ def _lit(part: Part, axis: list[complex], gauge: Gauge, colour: Colour) -> Part:
         return part
     first = part.layers[0]
     # a plate that lets one see through it throws none: that would darken the plate itself
-    shadow = (gauge.bar * _SHADOW, Layer(_BLACK, first.loops, _DARK)) if first.alpha == 1 else None
+    shadow = (gauge.bar * SHADOW, Layer(_BLACK, first.loops, _DARK)) if first.alpha == 1 else None
     edges = []
     if axis:
         begin, end = min(axis, key=np.real), max(axis, key=np.real)

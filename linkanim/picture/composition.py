@@ -419,8 +419,14 @@ class _Composer:
                 for base, ends in label.drawn.bases(at, span, tracks):
                     result.append(each(np.conj(base), ends - scale * base, np.array([2 + 2j])))
         turning, _ = self._marks(self._setting(composition))
-        if isinstance(turning, Turning):
+        if isinstance(turning, Turning) and moment is None:
             result.append(around(np.conj(places[turning.pivot]), turning.arrow + 4 * self._gauge.line))
+        elif isinstance(turning, Turning):
+            pivot, rates = places[turning.pivot], np.atleast_1d(motion.coordinate_rate)
+            for points, half, _ in turning.tracks(places, rates, angled=self.look.names > 1):
+                base = np.repeat(np.conj(pivot), points.shape[1])
+                edge = np.array([(half + self._gauge.line) * (1 + 1j)])
+                result.append(each(base, (points - pivot[:, None]).ravel(), edge))
         return result
 
     @cached_property

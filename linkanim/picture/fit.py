@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.picture.bodies import ENDED, WHEELS
+from linkanim.picture.bodies import ENDED, ROUND, SHADOW, WHEELS
 from linkanim.picture.figure import Figure
-from linkanim.picture.fittings import outlines
+from linkanim.picture.fittings import SLOTTED, outlines
 from linkanim.picture.gears import wheels
 from linkanim.picture.layout import Gauge
 from linkanim.picture.view import Box, Rect, View, moved
@@ -147,9 +147,11 @@ def of_linkage(figure: Figure, gauge: Gauge, moment: float | None = None, *, tra
 
 
 def _parts(figure: Figure, gauge: Gauge, moment: float | None, *, traced: bool) -> Iterator[Extent]:
-    line, bar, foot = gauge.around
+    line, edge, foot = gauge.around
     scene = figure.scene
     still = None if moment is None else scene.pose(moment, 0)
+    # a still is cropped to what is drawn; in motion a shadow or a slot's side may lie in the margin
+    bar, slotted = (_in_still(wide * gauge.bar, gauge) if still else (edge,) * 4 for wide in (1.0, SLOTTED))
 
     def whole(name: str) -> Points:
         places = np.atleast_2d(figure.cycle.position[name])
@@ -171,16 +173,23 @@ def _parts(figure: Figure, gauge: Gauge, moment: float | None, *, traced: bool) 
         yield around(whole(name) if name in guided else path(name), foot)
     for joint in scene.trace if traced else ():
         yield around(figure.cycle.position[joint] @ np.array([1, 1j]), 2 * line)
-    for centre, reach in _wheels(figure):
-        rim = path(centre)[:, None] + reach * np.array([1, 1j, -1, -1j])
-        yield around(rim, line)
+    for centre, reach, rim in _wheels(figure, gauge):
+        yield around(path(centre)[:, None] + reach * np.array([1, 1j, -1, -1j]), rim)
     for outline, places, turns in outlines(figure, still):
-        yield around(places[:, None] + turns[:, None] * outline, bar)
+        yield around(places[:, None] + turns[:, None] * outline, slotted)
 
 
-def _wheels(figure: Figure) -> Iterator[tuple[str, float]]:
-    """Yield the centres and radii of gears, and of bodies that are drawn as wheels."""
-    yield from ((wheel.centre, wheel.reach) for wheel in wheels(figure))
+def _in_still(half: float, gauge: Gauge) -> tuple[float, float, float, float]:
+    """Return how far a bar with its shadow is drawn around its joints: left, top, right, low."""
+    right, low = SHADOW.real * gauge.bar, SHADOW.imag * gauge.bar
+    edge = half + gauge.outline
+    return edge, edge, max(edge, half + right), max(edge, half + low)
+
+
+def _wheels(figure: Figure, gauge: Gauge) -> Iterator[tuple[str, float, float]]:
+    """Yield the centres and radii of gears, and of wheels, and their further pixels."""
+    yield from ((wheel.centre, wheel.reach, gauge.line) for wheel in wheels(figure))
     for body in figure.linkage.bodies:
-        if figure.scene.style(body.name).outline in WHEELS:
-            yield body.joints[0], figure.wheel_reach(body)
+        style = figure.scene.style(body.name)
+        if style.outline in WHEELS:
+            yield body.joints[0], figure.wheel_reach(body), gauge.line if style.radius else ROUND * gauge.bar
