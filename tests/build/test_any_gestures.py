@@ -65,7 +65,7 @@ def somewhere(random: Random, building: Building) -> str:
 
 
 def after(seed: int, steps: int) -> bool:
-    """Make so many gestures, and look at what comes of each; return whether the last one leaves what moves."""
+    """Make so many gestures, look at what comes of each; return whether the last one leaves what moves."""
     random = Random(seed)
     session = gestures(random.choice(SESSIONS).lines) if seed % 2 else []
     building = drawn_so_far(session[: random.randint(0, len(session))])
