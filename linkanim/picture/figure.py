@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from linkanim.frozen import frozen
 from linkanim.mechanics.centres import blocks
 from linkanim.mechanics.groups import group_of
-from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
+from linkanim.mechanics.linkage import RPR, Body, Brace, Damper, Linkage, Spring, holding
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import Look
@@ -176,6 +176,13 @@ class Figure:
         drawn = {name for body in self.bodies for name in body.joints}
         names = {*self.pins, *drawn, *self.scene.trace, *(joint.name for joint in joints if joint.travels)}
         return tuple(joint.name for joint in joints if joint.name in names)
+
+    @cached_property
+    def lettered(self) -> tuple[str, ...]:
+        """The joints in view with a letter; the end of a slot that is called as its link is has none."""
+        links = {body.name for body in self.bodies}
+        ends = {joint.name for joint in self.linkage.joints if isinstance(joint, RPR) and joint.name in links}
+        return tuple(name for name in self.in_view if name not in ends)
 
     @cached_property
     def moving(self) -> tuple[str, ...]:

@@ -593,7 +593,7 @@ class _Labelling:
         centred = CentrePairs(figure).at_joints if setting.look.centres else {}
         apart = _apart_from([*places], places)
         small = setting.layout.small_size
-        for name in figure.in_view:
+        for name in figure.lettered:
             if name in centred:
                 label = _label(setting, ", ".join(centred[name]), small, "warning", f"centre:{name}")
                 families, middles = self._round(name, label.size, small)

@@ -472,8 +472,9 @@ class _Dyads:
             at = (places[point] - places[pivot]) * rect(sense, -slide.angle)
             if point not in self.known and at.real > 0 and abs(at.imag) <= _NEAR * self.pose.size:
                 return self.add(point, {"slot": slot, "length": self.pose.length(pivot, point)})
-        # No point of the link is on the slot's line through the pivot: the slot's own end is one.
-        end = f"{slide.name}'" if slide.name in places else slide.name
+        # No point of the link is on the slot's line through the pivot: the slot's own end is one, which is
+        # called as the link is, and so has no letter of its own.
+        end = f"{link}'" if link in places else link
         length = max(
             _BEYOND * abs(along), *(abs(places[name] - places[pivot]) for name in self.pose.links[link])
         )

@@ -298,3 +298,19 @@ def test_a_name_without_a_place_has_a_leader_in_a_still_and_is_left_out_or_liste
         assert {one.written(scene.length_unit) for one in known} <= said
         numbers = [int("".join(re.findall("[0-9]", label.of)) or 0) for label in names.listed]
         assert numbers == sorted(numbers)
+
+
+ONE_POINT = {
+    "points": {"O": [0, 0], "A": [20, 30], "G": [100, 0]},
+    "links": {"ground": ["O", "G"], "crank": ["O", "A"], "lever": ["G"]},
+    "slides": {"pin": {"point": "A", "on": "lever", "angle": "159.44395478 deg"}},
+    "drive": {"joint": "O"},
+}
+"""An inverted slider-crank whose slotted lever is told by its pivot alone."""
+
+
+def test_the_end_that_a_slot_gets_is_no_joint_with_a_letter() -> None:
+    scene = scene_from(ONE_POINT, name="swing", where="swing")
+    labels = {one.of for one in Picture(scene, (1280, 720), Look(names=1)).names.labels}
+    assert {"joint:O", "joint:A", "joint:G"} == {of for of in labels if of.startswith("joint:")}
+    assert any(of.endswith(":lever") for of in labels)
