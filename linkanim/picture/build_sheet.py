@@ -25,7 +25,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import mark_stamp, pin_stamp
 from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import DrawSetting
-from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
+from linkanim.picture.fittings import Coil, Damping, block_layers, damping, hatched, pedestal
 from linkanim.picture.items import SHEET, Caption, Group, Halo
 from linkanim.picture.layout import HEAD_STEP, Gauge, Layout, gauge, tool_cells
 from linkanim.picture.marks import DimensionLine, label_beside, measure
@@ -224,7 +224,7 @@ class DraftDrawing:
         if strut.kind == "springs":
             drawn = Coil(ends, 1.15 * gauge_.bar, 1.5 * gauge_.bar, _COILS, gauge_, self._theme)
         else:
-            drawn = damping(ends, StrutSpan(span, span), (0.5 * span, 0.25 * span), gauge_, self._theme)
+            drawn = damping(ends, (span, span), (0.5 * span, 0.25 * span), gauge_, self._theme)
         return drawn.layers({"begin": begin, "end": end})
 
     def _pins(self) -> Iterator[Layer]:

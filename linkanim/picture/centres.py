@@ -51,13 +51,6 @@ CROSS = 0.8
 """The arm of a centre's cross, in half widths of a bar."""
 
 
-class NamedPair(NamedTuple):
-    """Two links by their numbers, and the name of their instant centre: P_{24}."""
-
-    links: tuple[str, str]
-    label: str
-
-
 @frozen
 class CentrePairs:
     """The pairs of a figure's links whose instant centres are shown, and where they are in a pose."""
@@ -65,11 +58,14 @@ class CentrePairs:
     figure: Figure
 
     @cached_property
-    def pairs(self) -> tuple[NamedPair, ...]:
-        """All pairs where links are few; else those with the ground that are known, or found by two lines."""
+    def pairs(self) -> dict[tuple[str, str], str]:
+        """The names of centres, such as P_{24}, by the numbers of their two links.
+
+        All where links are few; else those with the ground that are known, or found by two lines.
+        """
         links, order = self.figure.by_number, [*self.figure.by_number]
         if self.all_shown:
-            return tuple(NamedPair(pair, label_of(*pair)) for pair in combinations(links, 2))
+            return {pair: label_of(*pair) for pair in combinations(links, 2)}
         ground = (("1", other) for other in order[1:])
         known = {pair for pair in ground if touch(self.figure.linkage, links[pair[0]], links[pair[1]])}
         for step in self.steps:
@@ -77,7 +73,7 @@ class CentrePairs:
             on_lines = ((one, third) for third in step.by), ((third, other) for third in step.by)
             known |= {step.pair, *(_in_order(pair, order) for pairs in on_lines for pair in pairs)}
         shown = sorted(known, key=lambda pair: (order.index(pair[0]), order.index(pair[1])))
-        return tuple(NamedPair(pair, label_of(*pair)) for pair in shown)
+        return {pair: label_of(*pair) for pair in shown}
 
     @property
     def all_shown(self) -> bool:
@@ -93,7 +89,7 @@ class CentrePairs:
     def at_joints(self) -> dict[str, tuple[str, ...]]:
         """The names of the centres that always lie in a joint, by the joint's name."""
         labels: dict[str, tuple[str, ...]] = {}
-        for (one, other), label in self.pairs:
+        for (one, other), label in self.pairs.items():
             links = self.figure.by_number
             if joint := joint_between(self.figure.linkage, links[one], links[other]):
                 labels[joint] = (*labels.get(joint, ()), label)
@@ -102,14 +98,17 @@ class CentrePairs:
     def of(self, pose: Pose) -> dict[tuple[str, str], Centre]:
         """Return the centres of a pose by their pairs of links, for pairs that move against each other."""
         links = self.figure.by_number
-        known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
+        known = {pair: centre(pose, *(links[number] for number in pair)) for pair in self.pairs}
         return {pair: known_centre for pair, known_centre in known.items() if known_centre}
 
     def paths(self, motion: Motion, step: int) -> dict[str, Loop]:
         """Return where the centres are at every `step`-th phase of a motion, by name; NaN for nowhere."""
         links, some = self.figure.by_number, np.atleast_1d(motion.phase)[::step]
         seen = self.figure.scene.solve(phase=some, derivatives=1)
-        return {label: centre_path(seen, *(links[number] for number in pair)) for pair, label in self.pairs}
+        return {
+            label: centre_path(seen, *(links[number] for number in pair))
+            for pair, label in self.pairs.items()
+        }
 
     def near(self, pose: Pose, box: Box, far: float = _FAR) -> tuple[complex, ...]:
         """Return the centres of a pose, in the scene's unit, that lie near a rectangle of the scene.
@@ -138,7 +137,7 @@ class CentrePairs:
         unit_ = self.figure.scene.length_unit
         named = subscripted(self.figure.fixed[0]) if self.figure.fixed else said("the origin")
         return tuple(
-            _far_off(label, f"0000 {unit_}", named) for _, label in self.pairs if label not in jointed
+            _far_off(label, f"0000 {unit_}", named) for label in self.pairs.values() if label not in jointed
         )
 
 
@@ -209,7 +208,7 @@ class Centres:
         inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()
         foot, unit_ = room.inset(1).nearest(pin), self.setting.figure.scene.length_unit
         jointed = {label for labels in self.known.at_joints.values() for label in labels}
-        for pair, label in self.known.pairs:
+        for pair, label in self.known.pairs.items():
             if pair not in centres:
                 continue
             place, direction = centres[pair]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from itertools import combinations
 from math import inf
-from typing import NamedTuple, get_args
+from typing import get_args
 
 import numpy as np
 
@@ -66,14 +66,6 @@ _POSES, _CLOSE = 72, 0.08
 """The number of poses among which the clearest is chosen, and how near to each other its centres may be."""
 _SHORT = 0.3
 """The length of the mark that points to an infinitely far centre."""
-
-
-class ConstructionShown(NamedTuple):
-    """The steps of a construction that are shown, from its first on, and how many it has in all."""
-
-    kind: ConstructionKind
-    steps: tuple[ConstructionStep, ...]
-    total: int
 
 
 def kinds_of(scene: Scene) -> tuple[ConstructionKind, ...]:
@@ -142,16 +134,21 @@ def places_of(scene: Scene, kind: ConstructionKind, phase: float) -> tuple[compl
     return tuple(complex(point) for mark in marks for point in mark.points if np.isfinite(point))
 
 
-def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
-    """Return the construction and its steps at a step counted from 1 through all constructions of a scene."""
+def shown_at(
+    scene: Scene, at: int, phase: float
+) -> tuple[ConstructionKind, tuple[ConstructionStep, ...], int]:
+    """Return which construction is shown at a step counted from 1 through all constructions of a scene.
+
+    With it its steps up to there, and how many it has in all.
+    """
     *earlier, last = kinds_of(scene)
     for kind in earlier:
         count = len(steps_of(scene, kind, phase))
         if at <= count:
-            return ConstructionShown(kind, steps_of(scene, kind, phase)[:at], count)
+            return kind, steps_of(scene, kind, phase)[:at], count
         at -= count
     steps = steps_of(scene, last, phase)
-    return ConstructionShown(last, steps[:at], len(steps))
+    return last, steps[:at], len(steps)
 
 
 @lru_cache(maxsize=2)
@@ -159,7 +156,7 @@ def points_up_to(scene: Scene, at: int, phase: float) -> tuple[complex, ...]:
     """Return the points that a construction has found up to a step, but for those far from the linkage."""
     box = figure(scene).box
     size, middle = max(box.right - box.left, box.high - box.low), complex(*box.middle)
-    marks = (mark for step in shown_at(scene, at, phase).steps for mark in step.marks)
+    marks = (mark for step in shown_at(scene, at, phase)[1] for mark in step.marks)
     points = (complex(point) for mark in marks if mark.shape in _FOUND for point in mark.points)
     return tuple(point for point in points if abs(point - middle) <= _FAR * size)
 
@@ -212,9 +209,7 @@ def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
     centres, near = known.of(pose), set(known.near(pose, shown.box, _FAR))
     size = known.size
     links = shown.by_number
-    touching = [
-        (one, other) for (one, other), _ in known.pairs if touch(shown.linkage, links[one], links[other])
-    ]
+    touching = [(one, other) for one, other in known.pairs if touch(shown.linkage, links[one], links[other])]
     given = [pair for pair in touching if pair in centres]
     marks = [_given_mark(shown, pose, pair, centres[pair], near, size) for pair in given]
     steps = [ConstructionStep(_given_words(shown, centres, given), tuple(marks))]

@@ -60,18 +60,11 @@ _BARREL = 0.95
 """The half width of a damper's or cylinder's barrel, in half widths of a bar."""
 
 
-class StrutSpan(NamedTuple):
-    """The shortest and the longest distance between two joints over a cycle, in pixels."""
-
-    shortest: float
-    longest: float
-
-
-def reach(figure: Figure, view: View, item: Spring | Damper) -> StrutSpan:
-    """Return how short and how long a spring or damper becomes."""
+def spans(figure: Figure, view: View, item: Spring | Damper) -> tuple[float, float]:
+    """Return how short and how long a spring or damper becomes over a cycle, in pixels."""
     one, other = (figure.path(name, view) for name in item.between)
     apart = lengths(one - other)
-    return StrutSpan(float(np.nanmin(apart)), float(np.nanmax(apart)))
+    return float(np.nanmin(apart)), float(np.nanmax(apart))
 
 
 @frozen
@@ -137,7 +130,8 @@ class Damping:
     """
 
     between: tuple[str, str]
-    reach: StrutSpan
+    shortest: float
+    longest: float
     length: float
     foot: float
     rod: float
@@ -158,8 +152,8 @@ class Damping:
 
     def _piston(self, span: float) -> float:
         """Return where in the cylinder the piston stands, in pixels from its closed end."""
-        swept = self.reach.longest - self.reach.shortest
-        share = (span - self.reach.shortest) / swept if swept > 0 else 0.5
+        swept = self.longest - self.shortest
+        share = (span - self.shortest) / swept if swept > 0 else 0.5
         return self.length * (0.16 + 0.68 * min(max(share, 0.0), 1.0))
 
 
@@ -168,7 +162,7 @@ def coils(context: DrawContext) -> tuple[Coil, ...]:
     figure, view, gauge, theme = context.known
     lead, coils = 1.5 * gauge.bar, []
     for item in figure.linkage.springs:
-        room = reach(figure, view, item).shortest - 2 * lead
+        room = spans(figure, view, item)[0] - 2 * lead
         count = min(max(int(room / (_WOUND * gauge.line)), _COILS[0]), _COILS[1])
         coils.append(Coil(item.between, 1.15 * gauge.bar, lead, count, gauge, theme))
     return tuple(coils)
@@ -179,23 +173,26 @@ def dampings(context: DrawContext) -> tuple[Damping, ...]:
     figure, view, gauge, theme = context.known
     dampings = []
     for item in figure.cylinders:
-        span = reach(figure, view, item)
-        needed = (span.longest - span.shortest) / 0.68
-        least = 5 * gauge.bar if item.forceful else max(5 * gauge.bar, _CYLINDER * span.shortest)
-        length = min(max(needed, least), max(0.8 * span.shortest, 2 * gauge.bar))
-        foot = max(0.5 * (span.shortest - length), 0.0) * 0.6
-        dampings.append(damping(item.between, span, (length, foot), gauge, theme))
+        shortest, longest = spans(figure, view, item)
+        needed = (longest - shortest) / 0.68
+        least = 5 * gauge.bar if item.forceful else max(5 * gauge.bar, _CYLINDER * shortest)
+        length = min(max(needed, least), max(0.8 * shortest, 2 * gauge.bar))
+        foot = max(0.5 * (shortest - length), 0.0) * 0.6
+        dampings.append(damping(item.between, (shortest, longest), (length, foot), gauge, theme))
     return tuple(dampings)
 
 
 def damping(
-    between: tuple[str, str], span: StrutSpan, size: tuple[float, float], gauge: Gauge, theme: Theme
+    between: tuple[str, str], span: tuple[float, float], size: tuple[float, float], gauge: Gauge, theme: Theme
 ) -> Damping:
-    """Return a damper; `size` is its cylinder's length and distance from the first joint, in pixels."""
+    """Return a damper of a shortest and longest `span`.
+
+    `size` is its cylinder's length and distance from the first joint, in pixels.
+    """
     (length, foot), radius = size, _BARREL * gauge.bar
     cylinder = barrel(0.0, length, radius, gauge, theme)
     head = piston(0.16 * length, radius, gauge, theme)
-    return Damping(between, span, length, foot, 2.4 * gauge.line, cylinder, head)
+    return Damping(between, *span, length, foot, 2.4 * gauge.line, cylinder, head)
 
 
 def barrel(near: float, far: float, radius: float, gauge: Gauge, theme: Theme) -> tuple[Layer, Layer]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.drawn import Addition
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group
-from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import arrows, disc
 
 _LONGEST = 0.16
@@ -37,26 +36,13 @@ class HoverArrows(Addition):
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield the two arrows."""
         most = greatest(setting.figure.cycle, self.joint)
-        shown = list(_arrows(setting, pose, self.joint, most))
-        foot = setting.view.pixel(pose.position[self.joint])
-        yield Group("hover-arrows", [layer for arrow in shown for layer in arrow.layers(foot)], over=True)
+        yield Group("hover-arrows", [*_arrows(setting, pose, self.joint, most)], over=True)
 
 
-class _HoverArrow(NamedTuple):
-    """An arrow from a joint: its reach in pixels, its colour and the ground's, and its width."""
-
-    reach: complex
-    colours: tuple[Colour, Colour]
-    width: float
-
-    def layers(self, foot: complex) -> list[Layer]:
-        rims = zip(self.colours, (0.0, 0.5 * self.width), strict=True)
-        layers = [Layer(colour, arrows([foot], [self.reach], self.width, rim)) for colour, rim in rims]
-        return layers[::-1]
-
-
-def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Iterator[_HoverArrow]:
+def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Iterator[Layer]:
+    """Yield a joint's arrows, each over its rim in the ground's colour."""
     theme, longest = setting.theme, _LONGEST * setting.layout.size[1]
+    foot, width = [setting.view.pixel(pose.position[joint])], 1.8 * setting.gauge.line
     faster = abs(pose.input_speed / setting.figure.linkage.drive.speed)
     kinds = (
         (pose.velocity[joint], most[0] * faster, theme.velocity),
@@ -65,7 +51,8 @@ def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Ite
     for (x, y), largest, colour in kinds:
         reach = longest * complex(x, -y) / largest if largest > 0.0 else 0j
         if 0.01 * longest < abs(reach) <= 2.0 * longest:
-            yield _HoverArrow(reach, (colour, theme.background), 1.8 * setting.gauge.line)
+            yield Layer(theme.background, arrows(foot, [reach], width, 0.5 * width))
+            yield Layer(colour, arrows(foot, [reach], width))
 
 
 def instant(setting: DrawSetting, places: list[complex]) -> Iterator[Layer]:

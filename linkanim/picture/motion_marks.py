@@ -82,9 +82,9 @@ class Trace:
         # a motion that runs backwards passes through the curve from its end
         last, share = (floor(here), here % 1) if forward else (-ceil(here) - 1, -here % 1)
         first = (last - tail) % count
-        course, (cuts, needed) = self._courses[not forward], _cuts(tail + 2)
-        taken = np.flatnonzero(course.corner[first : first + tail + 2] | needed)
-        path, side = course.path.take(first + taken), course.side.take(first + taken)
+        (path, side, corner), (cuts, needed) = self._courses[not forward], _cuts(tail + 2)
+        taken = np.flatnonzero(corner[first : first + tail + 2] | needed)
+        path, side = path.take(first + taken), side.take(first + taken)
         path[-1], side[-1] = place, (1 - share) * side[-2] + share * side[-1]
         side *= _swelling(tail + 2, self.width).take(taken)
         ends = np.searchsorted(taken, cuts).tolist()
@@ -105,16 +105,12 @@ class Trace:
         """Two rounds of the path, and two the other way."""
         side = sides_of(self.path)
         corner = _corners(np.stack([self.path + half * side for half in (self.width, -self.width)]))
-        there = _Course(np.tile(self.path, 2), np.tile(side, 2), np.tile(corner, 2))
-        return there, _Course(there.path[::-1], -there.side[::-1], there.corner[::-1])
+        path, side, corner = np.tile(self.path, 2), np.tile(side, 2), np.tile(corner, 2)
+        return (path, side, corner), (path[::-1], -side[::-1], corner[::-1])
 
 
-class _Course(NamedTuple):
-    """A curve's points, the vector from each to the left edge of a line 2 wide, and which are corners."""
-
-    path: Loop
-    side: Loop
-    corner: NDArray[np.bool_]
+_Course = tuple[Loop, Loop, NDArray[np.bool_]]
+"""A curve's points, the vector from each to the left edge of a line 2 wide, and which are corners."""
 
 
 @lru_cache(maxsize=16)

@@ -33,7 +33,6 @@ from linkanim.picture.placing import (
     Obstacles,
     Size,
     chosen,
-    chosen_among,
     off_lines,
     off_rects,
     weighed,
@@ -364,7 +363,7 @@ class _Labelling:
             if called is not self._called[-1] and not all(one.has_place for one in weights):
                 continue
             wanted = [*others, *links]
-            which = chosen_among([*known, *weights, *arrowed])
+            which = chosen([*known, *weights, *arrowed])
             if None not in which[len(others) : len(wanted)]:
                 break
         placed = [one.at(n) for one, n in zip(wanted, which, strict=False) if n is not None]

@@ -215,14 +215,14 @@ class Picture:
         from linkanim.picture.construction import construction_items
         from linkanim.picture.slider import Slider, slider_rect
 
-        shown = shown_at(self._goal, steps, pose.phase)
+        _, shown, total = shown_at(self._goal, steps, pose.phase)
         pen = pen_for(self.layout, self.type, self.theme)
-        marks = [self._labelled_once(mark, pose) for step in shown.steps for mark in step.marks]
+        marks = [self._labelled_once(mark, pose) for step in shown for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
-        facts = said("step {number} of {count}", number=len(shown.steps), count=shown.total)
+        facts = said("step {number} of {count}", number=len(shown), count=total)
         facts = facts if self._moment is not None else said("{step} · F7 goes on", step=facts)
         beside = slider_rect(self.layout) if any(isinstance(one, Slider) for one in drawn) else None
-        yield worded(self.drawing.setting, shown.steps[-1].words, [facts], beside=beside)
+        yield worded(self.drawing.setting, shown[-1].words, [facts], beside=beside)
 
     def _labelled_once(self, mark: Mark, pose: Pose) -> Mark:
         """Return a mark of a point without its label where the joint there has the same letter already."""

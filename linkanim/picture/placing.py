@@ -56,6 +56,23 @@ class Alternatives(NamedTuple):
     rank: int = 1
     ordered: bool = False
 
+    @property
+    def known_faults(self) -> Bools:
+        """Its faults (n, k); none where nothing is known."""
+        return np.zeros(self.places.shape, np.bool_) if self.faults is None else self.faults
+
+    @property
+    def has_place(self) -> bool:
+        """Whether it has a place where no other label is."""
+        return bool(self.allowed(self.known_faults)[1].any())
+
+    def allowed(self, faults: Bools) -> tuple[Floats, Bools]:
+        """Return in what share of the moments places have faults that count, and which it may take."""
+        counted = faults if self.excused is None else faults & ~self.excused[:, None]
+        share: Floats = counted.mean(axis=0)
+        most = max(self.most, float(share.min()) if self.most >= 1 else 0.0)
+        return share, np.asarray(share <= most + _SURE)
+
     def at(self, number: int) -> Alternatives:
         """Return the label with one of its places alone."""
         some = slice(number, number + 1)
@@ -115,57 +132,33 @@ class Obstacles(NamedTuple):
     thick: Floats = np.zeros(0)
 
 
-def chosen(labels: Sequence[Alternatives], ground: Obstacles) -> list[int | None]:
-    """Return the number of the place that each label takes; None for a label without a place."""
-    return chosen_among([weighed(label, ground) for label in labels])
+def weighed(label: Alternatives, ground: Obstacles) -> Alternatives:
+    """Return a label with the faults and prices that its places have on the ground."""
+    faults = _faults(label, ground)
+    return label._replace(faults=faults, price=label.price + _COVERING * _covered(label, ground))
 
 
-class Weighed(NamedTuple):
-    """A label with the faults (n, k) and prices (k,) that its places have without other labels."""
+def chosen(labels: Sequence[Alternatives], ground: Obstacles | None = None) -> list[int | None]:
+    """Return the number of the place that each label takes; None for a label without a place.
 
-    label: Alternatives
-    faults: Bools
-    price: Floats
-    swept: Floats
-
-    def allowed(self, share: Floats) -> Bools:
-        """Return which places have faults in no greater share of the moments than the label bears."""
-        most = max(self.label.most, float(share.min()) if self.label.most >= 1 else 0.0)
-        return np.asarray(share <= most + _SURE)
-
-    @property
-    def has_place(self) -> bool:
-        """Whether it has a place where no other label is."""
-        return bool(self.allowed(_share(self.label, self.faults)).any())
-
-
-def weighed(label: Alternatives, ground: Obstacles) -> Weighed:
-    """Return a label with what its places cost on the ground."""
-    swept = _swept(label)
-    return Weighed(
-        label, _faults(label, ground, swept), label.price + _COVERING * _covered(label, ground), swept
-    )
-
-
-def chosen_among(known: Sequence[Weighed]) -> list[int | None]:
-    """Return the number of the place that each label takes; None for a label without a place."""
-    labels = [one.label for one in known]
-    free = [int((~one.faults.any(axis=0)).sum()) for one in known]
+    Labels that are weighed already need no ground.
+    """
+    labels = [weighed(one, ground) for one in labels] if ground else labels
+    moments = len(labels[0].places) if labels else 0
+    known = [one.known_faults for one in labels]
+    free = [int((~faults.any(axis=0)).sum()) for faults in known]
     choice: list[int | None] = [None] * len(labels)
     placed = list[Alternatives]()
-    moments = len(labels[0].places) if labels else 0
     edges, margins = np.empty((4, moments, len(labels))), np.empty(len(labels))
     for n in sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n)):
-        label, faults, price, swept = known[n]
-        count = len(placed)
-        near = np.flatnonzero(_meet(swept, edges[:, :, :count], label.gap + margins[:count]))
+        label, faults, count = labels[n], known[n], len(placed)
+        near = np.flatnonzero(_meet(_swept(label), edges[:, :, :count], label.gap + margins[:count]))
         if near.size:
             faults = faults | _hit_by(label, [placed[other] for other in near])
-        share = _share(label, faults)
-        allowed = known[n].allowed(share)
+        share, allowed = label.allowed(faults)
         if not allowed.any():
             continue
-        cost = np.where(allowed, price + _FAULTY * share + faults.mean(axis=0), np.inf)
+        cost = np.where(allowed, label.price + _FAULTY * share + faults.mean(axis=0), np.inf)
         best = choice[n] = int(cost.argmin())
         placed.append(label.at(best))
         edges[:, :, count : count + 1], margins[count] = _swept(placed[-1]), label.size[1]
@@ -182,16 +175,9 @@ def grounded(
     return Obstacles(inside, middles, sizes, lines=ends, halves=np.full(ends.shape[1], half))
 
 
-def _share(label: Alternatives, faults: Bools) -> Floats:
-    """Return for each place the share of the moments with a fault that is not excused."""
-    counted = faults if label.excused is None else faults & ~label.excused[:, None]
-    share: Floats = counted.mean(axis=0)
-    return share
-
-
-def _faults(label: Alternatives, ground: Obstacles, swept: Floats) -> Bools:
+def _faults(label: Alternatives, ground: Obstacles) -> Bools:
     """Return where a label's places (n, k) break a rule, without other labels."""
-    places, (wide, high) = label.places, label.size
+    places, (wide, high), swept = label.places, label.size, _swept(label)
     room = ground.inside
     x, y = places.real, places.imag
     out = (x < room.x + wide / 2 - _SURE) | (x > room.right - wide / 2 + _SURE)

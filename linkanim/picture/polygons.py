@@ -77,13 +77,6 @@ class Arrow(NamedTuple):
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < _COINCIDING
 
 
-class Placing(NamedTuple):
-    """Where the names of a polygon stand: off its pole in a direction, and beside its vectors."""
-
-    pole: complex
-    sides: dict[tuple[str, Sort], Way]
-
-
 @frozen
 class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
@@ -268,7 +261,7 @@ class Polygon:
         or where its vector is shorter than the symbol is high, it is left out.
         """
         pen, small, room = self.pen, self.pen.small, self._within
-        origin, way = "o_{v}" if self.order == 1 else "o_{a}", self._placing.pole
+        origin, (way, ways) = "o_{v}" if self.order == 1 else "o_{a}", self._ways
         size = (float(pen.type.width(origin, small)), float(small))
         at = pole + pushed(way, 2.4 * pen.line, size, False)
         captions, taken, unnamed = (
@@ -279,7 +272,7 @@ class Polygon:
         for arrow in sorted(drawn, key=lambda arrow: (not arrow.is_absolute, -abs(arrow.reach))):
             symbol = arrow.side.symbol
             size = (float(pen.type.width(symbol, small)), float(small))
-            way_ = self._placing.sides.get((symbol, arrow.side.sort))
+            way_ = ways.get((symbol, arrow.side.sort))
             middle = way_.middle(arrow.seen, size) if way_ else 0j
             rect = _rect(middle, size)
             inside = room.holds(rect.x, rect.y) and room.holds(rect.right, rect.bottom)
@@ -297,8 +290,11 @@ class Polygon:
         return self.rect.inset(-min(self.pen.text, _BEYOND * self.pen.line))
 
     @cached_property
-    def _placing(self) -> Placing:
-        """Where the symbols stand: chosen for the pose that is shown, or for the cycle."""
+    def _ways(self) -> tuple[complex, dict[tuple[str, Sort], Way]]:
+        """The direction from the pole to its name, and where symbols stand beside their vectors.
+
+        They are chosen for the pose that is shown, or for the cycle.
+        """
         pen, small = self.pen, self.pen.small
         speed = self.figure.linkage.drive.speed
         pole, phases = self.pole(speed), 1 if self.shown else len(self.figure.cycle.phase)
@@ -321,7 +317,7 @@ class Polygon:
             choices.append(Alternatives(size, places, price, excused=hidden, most=1.0))
         pole_way, *ways = chosen(choices, ground)
         sides = {key: _SIDES[n] for key, n in zip(tracks, ways, strict=True) if n is not None}
-        return Placing(complex(_AROUND[pole_way or 0]), sides)
+        return complex(_AROUND[pole_way or 0]), sides
 
     def _written(self, words: str, at: complex, colour: Colour) -> Caption:
         """Return a name about a place."""

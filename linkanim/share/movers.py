@@ -576,7 +576,12 @@ class Mobile:
         barrel = self.pairs.elements(light.cylinder, dark.cylinder)
         head = self.pairs.elements([light.head], [dark.head])
         colour = self.pairs.variable(light.cylinder[0].colour, dark.cylinder[0].colour)
-        size = {"reach": list(light.reach), "length": light.length, "rod": light.rod, "colour": colour}
+        size = {
+            "reach": [light.shortest, light.longest],
+            "length": light.length,
+            "rod": light.rod,
+            "colour": colour,
+        }
         return {"kind": "damping", "between": list(light.between), **size, "barrel": barrel, "head": head}
 
     def _arrows(self, kind: Kind) -> Mover:

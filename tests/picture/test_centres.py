@@ -44,7 +44,7 @@ MARKED = [
 
 @pytest.mark.parametrize(("name", "labels"), MARKED)
 def test_the_pairs_of_links(name: str, labels: list[str]) -> None:
-    assert sorted(pair.label for pair in found(name).known.pairs) == labels
+    assert sorted(found(name).known.pairs.values()) == labels
 
 
 def words_of(picture: Picture, phase: float) -> list[str]:
@@ -72,7 +72,7 @@ def test_a_still_holds_the_centres_near_its_linkage_and_tells_of_the_others(name
         box, said = picture.figure.box_of(scene.pose(phase, 2)), words_of(picture, phase)
         window, size = Rect(0, 0, 1280, 720), max(box.right - box.left, box.high - box.low)
         known = CentrePairs(picture.figure)
-        for pair, label in known.pairs:
+        for pair, label in known.pairs.items():
             place = known.of(scene.pose(phase, 2))[pair].place
             if place is None:
                 assert f"{label}: at ∞" in said
@@ -95,7 +95,7 @@ def test_a_still_of_any_few_links_names_all_their_centres_and_each_at_its_place(
         lines = [line for group in picture.groups(pose) for line in group.captions]
         boxes = [line.around(picture.type) for line in lines]
         assert not any(one.inset(1).meets(other.inset(1)) for one, other in combinations(boxes, 2))
-        for pair, label in known.pairs:
+        for pair, label in known.pairs.items():
             place = known.of(pose)[pair].place
             if place is None:
                 assert f"{label}: at ∞" in [line.text for line in lines]
@@ -220,7 +220,7 @@ def test_every_centre_is_at_a_joint_or_a_guide_or_has_the_lines_that_lead_there(
     shown = figure(load(name))
     known, links = CentrePairs(shown), shown.by_number
     built = {step.pair: step.by for step in known.steps}
-    named = {pair for pair, _ in known.pairs}
+    named = {*known.pairs}
     for one, other in named:
         if not touch(shown.linkage, links[one], links[other]):
             assert known.all_shown or len(built[one, other]) == 2
@@ -235,10 +235,10 @@ def test_the_paths_of_centres_go_through_where_they_are_in_each_pose(name: str) 
     shown = figure(load(name))
     known, step = CentrePairs(shown), len(shown.cycle.phase) // 7
     paths = known.paths(shown.cycle, step)
-    assert set(paths) == {label for _, label in known.pairs}
+    assert set(paths) == {*known.pairs.values()}
     for n, phase in enumerate(shown.cycle.phase[::step]):
         centres = known.of(shown.scene.pose(float(phase), 2))
-        for pair, label in known.pairs:
+        for pair, label in known.pairs.items():
             place = centres[pair].place if pair in centres else None
             if place is None:
                 assert np.isnan(paths[label][n]) or abs(paths[label][n]) > 1e6 * shown.extent

@@ -178,10 +178,10 @@ def test_steps_are_counted_through_all_constructions() -> None:
     assert steps_before(scene, "centres") == count
     with pytest.raises(BadInput, match="has no construction of a synthesis"):
         steps_before(scene, "synthesis")
-    last = shown_at(scene, count, 0.4)
-    assert (last.kind, len(last.steps), last.total) == ("dead-centres", count, count)
-    assert shown_at(scene, count + 2, 0.4).kind == "centres"
-    assert len(shown_at(scene, all_steps(scene), 0.4).steps) == len(steps_of(scene, "centres"))
+    kind, steps, total = shown_at(scene, count, 0.4)
+    assert (kind, len(steps), total) == ("dead-centres", count, count)
+    assert shown_at(scene, count + 2, 0.4)[0] == "centres"
+    assert len(shown_at(scene, all_steps(scene), 0.4)[1]) == len(steps_of(scene, "centres"))
 
 
 def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:

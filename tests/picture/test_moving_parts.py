@@ -82,7 +82,7 @@ def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
     cushion = dampings(DrawContext(press, VIEW, GAUGE, LIGHT))[0]
     one, other = cushion.between
     pistons = []
-    for length in np.linspace(cushion.reach.shortest, cushion.reach.longest, 9):
+    for length in np.linspace(cushion.shortest, cushion.longest, 9):
         wall, _, _, piston = cushion.layers({one: 0j, other: complex(length, 0)})
         cylinder, head = _extent([wall], 1 + 0j), _extent([piston], 1 + 0j)
         assert cylinder[0] < head[0] < head[1] < cylinder[1]

@@ -131,6 +131,6 @@ def test_places_that_are_weighed_together_have_the_faults_that_each_has_alone(se
     reach = np.stack([middles, middles + 80], axis=2)[:, :, None]
     both = Alternatives(SIZE, middles, np.zeros(few), lines=reach)
     together, alone = weighed(both, ground), [weighed(both.at(n), ground) for n in range(few)]
-    assert 0 < together.faults.sum() < together.faults.size
-    assert (together.faults == np.concatenate([one.faults for one in alone], axis=1)).all()
-    assert (together.price == [float(one.price[0]) for one in alone]).all()
+    assert 0 < together.known_faults.sum() < together.known_faults.size
+    assert np.array_equal(together.known_faults, np.hstack([one.known_faults for one in alone]))
+    assert together.price.tolist() == [float(one.price[0]) for one in alone]

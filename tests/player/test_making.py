@@ -349,8 +349,8 @@ def large(here: object) -> Iterator[Player]:
 
 def kind_of(player: Player) -> tuple[str, int]:
     """Return the construction that is drawn, and how many of its steps."""
-    found = shown_at(player.state.scene, player.state.constructed, player.state.phase)
-    return found.kind, len(found.steps)
+    kind, steps, _ = shown_at(player.state.scene, player.state.constructed, player.state.phase)
+    return kind, len(steps)
 
 
 def click(player: Player, icon: str) -> None:
