@@ -58,7 +58,7 @@ OFF = 2.0**-46
 grows with that distance, as coordinates lose digits of a bar."""
 BARELY = 1 / 64
 """Share of its greatest value below which a margin that turns back costs results their digits."""
-LOW = 1 / 16
+LOW = 1 / 8
 """The same where a margin rises from a limit: it costs rates, which lose twice as many, more digits."""
 FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""

@@ -19,7 +19,7 @@ from linkanim.mechanics.motion import mechanism
 from linkanim.mechanics.solver.input import Swing
 
 EPS = 2.0**-52
-BESIDE = [1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.1]
+BESIDE = [1e-9, 1e-6, 1e-4, 1e-3, *np.geomspace(0.005, 0.5, 16).tolist(), 0.2016]
 WAYS = [1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3]
 PINS = Pin("O", (0.0, 0.0)), Pin("P", (79.0, 0.0)), Pin("S", (140.0, 38.0))
 CRANK = Crank("A", "O", 79.125)
@@ -39,10 +39,24 @@ FLAT = (*PINS, Crank("A", "O", 30.0), RRR("B", ("A", "P"), (90.0, 41.0 + 2.0**-1
 """At 0 all bars nearly lie in one line: rates change within 0.001 rad."""
 
 
+SHORT = (
+    Pin("O", (0.0, 0.0)),
+    Pin("P", (73.92, 0.0)),
+    Pin("S", (120.55, -113.5)),
+    Crank("A", "O", 74.23),
+    RRR("B", ("A", "P"), (81.5, 81.49), 1),
+)
+
+
 def bars(at: Places) -> Joint:
     """Bars of lengths whose difference is B's distance from S."""
     length = float(abs(at["B"] - mp.mpc(140, 38)))
     return RRR("D", ("B", "S"), (1.75 * length, 0.75 * length), -1)
+
+
+def given(at: Places) -> Joint:
+    """Bars whose polynomial beside the limit ends at the phase 0.202."""
+    return RRR("D", ("B", "S"), (40.19, 114.28), 1)
 
 
 def slider(at: Places) -> Joint:
@@ -53,6 +67,7 @@ def slider(at: Places) -> Joint:
 CASES: list[tuple[str, tuple[Joint, ...], Callable[[Places], Joint], float, float]] = [
     # Where the bars stop the input, and a start on its swing.
     ("before the pins of a kite meet", KITE, bars, -0.0005, 0.3),
+    ("on a short swing, where a polynomial ends", SHORT, given, -6.2, -6.0),
     ("behind that place", KITE, bars, 0.003, 0.3),
     ("a whole turn later", SLOT, bars, -0.003, -0.3),
     ("a slotted bar that turns half round, behind it a slider", SLOT, slider, -0.003, 0.3),
@@ -79,20 +94,20 @@ def test_a_loop_that_moves_quickly_at_a_limit_has_all_its_digits(
         assert "D" in path.ends
         low, high = (limit(linkage, *end) for end in zip(path.ends, (path.low, path.high), strict=True))
         if by == "phase":
-            given = np.array([*BESIDE, *(math.pi - way for way in BESIDE)])
-            steps = [mpf(10) ** -25] * len(given)
-            motion = solved.solve(phase=given, speed=1.0)
+            stated = np.array([*BESIDE, *(math.pi - way for way in BESIDE)])
+            steps = [mpf(10) ** -25] * len(stated)
+            motion = solved.solve(phase=stated, speed=1.0)
         else:
-            given = np.array([*(float(low) + way for way in WAYS), *(float(high) - way for way in WAYS)])
-            given = given[[low < mpf(angle) < high for angle in given.tolist()]]
-            steps = [min(mpf(angle) - low, high - mpf(angle)) * mpf(10) ** -12 for angle in given.tolist()]
-            motion = solved.solve(angle=given, speed=1.0)
+            stated = np.array([*(float(low) + way for way in WAYS), *(float(high) - way for way in WAYS)])
+            stated = stated[[low < mpf(angle) < high for angle in stated.tolist()]]
+            steps = [min(mpf(angle) - low, high - mpf(angle)) * mpf(10) ** -12 for angle in stated.tolist()]
+            motion = solved.solve(angle=stated, speed=1.0)
 
         def pose(way: Any) -> Places:
             swing = (low + high) / 2 - (high - low) / 2 * mp.cos(way)
             return places(linkage, swing if by == "phase" else way)
 
-        true = [rates(pose, mpf(place), step) for place, step in zip(given.tolist(), steps, strict=True)]
+        true = [rates(pose, mpf(place), step) for place, step in zip(stated.tolist(), steps, strict=True)]
         longest = max(length for joint in linkage.joints for length in joint.stated_lengths)
         for order, kind, most in ((0, "position", 16), (1, "velocity", 32), (2, "acceleration", 64)):
             for name in true[0][0]:

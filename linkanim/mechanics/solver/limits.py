@@ -111,6 +111,8 @@ POINTS_OF_A_DIP = 32
 """Samples of a near touch's fit, which has to hold as far as the margin lacks digits: that may be far."""
 WIDEST = 0.5
 TRIES = 16
+INNER = 15 / 16
+"""The share of a fit beside a limit that is used: the rates of its last terms are greatest at its ends."""
 MOST_FITS = 12
 """The most fits that follow a limit's first one."""
 
@@ -313,14 +315,16 @@ def _near_a_zero(
     Where a loop before moves quickly beside the limit, each holds only about as far as it is away from there.
     """
     near = _near(name, zero, sampled, width)
-    if near is None or near.across or not isinstance(zero, End) or _margin_at_end(near.root) >= low:
+    if near is None or not isinstance(zero, End):
         return near
+    if near.across or _margin_at_end(near.root) >= low:
+        return near._replace(root=near.root._replace(width=near.root.width * INNER))
     fits = [near.root._replace(width=near.root.width / 2)]
     margin = 0.0
     while (edge := fits[-1].width) < width and margin < low and len(fits) <= MOST_FITS:
         way, last = min(3 * edge, width - edge), math.inf
         while last > LAST_BEYOND and way > edge / 8:
-            stretch = edge + way, edge + way / 2, way / 2
+            stretch = edge + way * INNER, edge + way * (INNER - 0.5), way / 2
             places = [Decimal(stretch[1]) + Decimal(stretch[2]) * node for node in nodes(POINTS)]
             samples = [sampled(place) for place in places]
             fit = _fit(stretch, samples, [square.sqrt() for square in _squares(samples, Decimal(0))])
@@ -334,7 +338,7 @@ def _near_a_zero(
 
 
 def _margin_at_end(fit: PolynomialFit) -> float:
-    """Return the margin where a fit beside a limit ends."""
+    """Return the margin, or nearly, where a fit beside a limit ends."""
     return fit.width * sum(fit.coefficients) ** 2
 
 
