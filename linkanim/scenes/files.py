@@ -186,8 +186,9 @@ def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:
 
 def catalogued(name: str) -> Path | None:
     """Return the file of a catalogue scene, which lies in its chapter's folder; None for any other name."""
-    chapters_there = (Path(__file__).parent / "catalogue").iterdir()
-    return next((path for folder in chapters_there if (path := folder / f"{name}.toml").is_file()), None)
+    folders, file = (Path(__file__).parent / "catalogue").iterdir(), f"{name}.toml"
+    # looked up, not asked for: no file can have some names
+    return next((path for folder in folders if (path := folder / file) in folder.iterdir()), None)
 
 
 def _text(path: str) -> str:
