@@ -153,6 +153,8 @@ def slider(building: Building, joint: str | None, name: str, at: complex, *, sna
             "sliders": lambda: said("{joint} slides on a guide already", joint=joint),
         }
         return refused(building, words[held]())
+    elif joint in draft.of("guides")[name].get("on", ()):
+        return refused(building, said("{joint} is an end of that bar, and cannot slide in it", joint=joint))
     else:
         draft = moved(_with_slider(draft, joint, name), joint, place_of(draft, joint), snap)
     return changed(building, draft, (JOINT, joint))

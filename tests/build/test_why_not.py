@@ -77,6 +77,11 @@ REFUSED = (
     (CRANK, "drag slider 50 0 70 70", "Let the slider go on a guide"),
     (CRANK, "drag slot 50 0 70 70", "Let the slot go on a bar, or on a slider"),
     (CRANK, "drag slot 50 0 25 0", "A is an end of that bar, and cannot slide in it"),
+    (
+        f"{CRANK}; drag guide 25 0 45 20",
+        "drag slider 50 0 40 15",
+        "A is an end of that bar, and cannot slide in it",
+    ),
     (CRANK, "drag slot 0 0 100 0", "A slot is in a bar, or in a slider that has none: let go on one"),
     (CRANK, "drag gear 50 0 70 70", "A gear pair joins two cranks: drag from one to the other"),
     (CRANK, "drag gear 50 0 100 0", "A gear pair joins two cranks: drag from one to the other"),
