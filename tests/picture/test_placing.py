@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.picture.placing import Alternatives, Obstacles, chosen, crossed, grounded, weighed
+from linkanim.picture.placing import Alternatives, Obstacles, chosen, crossed, grounded
 from linkanim.picture.view import Rect
 
 ROOM = Rect(0, 0, 400, 400)
@@ -77,13 +77,6 @@ def test_a_place_is_as_good_as_it_is_over_all_moments() -> None:
     assert chosen([both._replace(excused=excused)], ground) == [1]
 
 
-def test_whoever_has_the_fewest_places_goes_first_unless_the_rank_says_otherwise() -> None:
-    free, stuck = label(HERE, THERE), label(HERE)
-    assert chosen([free, stuck], Obstacles(ROOM)) == [1, 0]
-    assert chosen([free._replace(rank=0), stuck], Obstacles(ROOM)) == [0, None]
-    assert chosen([free._replace(ordered=True), stuck._replace(ordered=True)], Obstacles(ROOM)) == [0, None]
-
-
 def test_lines_drawn_with_a_label_are_in_the_way_of_others_and_keep_a_gap() -> None:
     """Each of two labels has a line from its place to the left edge."""
     led = label(HERE, THERE, lines=np.array([[[[95 + 100j, 0 + 100j]], [[95 + 300j, 0 + 300j]]]]))
@@ -107,30 +100,3 @@ def test_boxes_meet_the_thick_lines_that_reach_into_them(turn: complex) -> None:
         near = np.abs(box + inner - share * 30 * turn).min()
         assert met or near > half - 1.0
         assert not met or near < half * np.sqrt(2) + 1.0
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_places_that_are_weighed_together_have_the_faults_that_each_has_alone(seed: int) -> None:
-    """What no place of a label comes near is left out for all of them at once."""
-    rng = np.random.default_rng(seed)
-
-    def points(*shape: int) -> Any:
-        return rng.uniform(-50, 450, shape) + 1j * rng.uniform(-50, 450, shape)
-
-    begin, moments, few, most = points(5, 30, 1), 5, 6, 30
-    some = begin + points(5, 30, 1) / 5
-    ground = _ground(
-        discs=points(moments, most),
-        radii=rng.uniform(2, 40, most),
-        lines=np.concatenate([begin, some], axis=2),
-        halves=rng.uniform(0, 20, most),
-        bars=np.concatenate([some, points(5, 30, 1)], axis=2),
-        thick=rng.uniform(0, 20, most),
-    )
-    middles = points(moments, 1) + points(moments, few) / 10
-    reach = np.stack([middles, middles + 80], axis=2)[:, :, None]
-    both = Alternatives(SIZE, middles, np.zeros(few), lines=reach)
-    together, alone = weighed(both, ground), [weighed(both.at(n), ground) for n in range(few)]
-    assert 0 < together.known_faults.sum() < together.known_faults.size
-    assert np.array_equal(together.known_faults, np.hstack([one.known_faults for one in alone]))
-    assert together.price.tolist() == [float(one.price[0]) for one in alone]

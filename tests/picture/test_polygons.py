@@ -149,12 +149,6 @@ def test_in_a_figure_every_vector_is_named_once_and_the_pole_too(name: str, phas
         assert said.count("o_{v}" if panel.order == 1 else "o_{a}") == 1
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (640, 360)])
-def test_each_has_a_third_of_the_picture_s_width(size: tuple[int, int]) -> None:
-    for panel in panels("press", window(size, polygons=1)):
-        assert panel.rect.width >= size[0] / 3
-
-
 @pytest.mark.parametrize("name", FEW)
 def test_in_a_figure_of_one_pose_they_fill_their_place(name: str) -> None:
     assert WINDOW.polygons is not None
@@ -211,16 +205,6 @@ def test_a_pose_with_an_acceleration_fills_its_place_too() -> None:
     points = np.concatenate([loop for layer in panel.group(pose).layers for loop in layer.loops])
     assert panel.rect.y < points.imag.min() < points.imag.max() < panel.rect.bottom
     assert panel.rect.x < points.real.min() < points.real.max() < panel.rect.right + 1
-
-
-def test_the_pole_is_a_dot() -> None:
-    for panel in panels("crank-rocker"):
-        pole, found = panel.pole(panel.figure.scene.linkage.drive.speed), drawn(panel, 1.0)
-        dots = [
-            loop - pole for layer in found.layers for loop in layer.loops if np.abs(loop - pole).max() < 9
-        ]
-        assert len(dots) == 1
-        assert np.abs(dots[0]) == pytest.approx(1.8 * panel.pen.line)
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (320, 180), (180, 320)])
@@ -300,19 +284,6 @@ def test_the_title_of_a_polygon_and_what_its_bar_means_are_apart(size: tuple[int
         captions = (one for one in panel.group(pose).captions if not one.halo)
         title, *rest = (one.around(Type()) for one in captions)
         assert not any(title.meets(one) for one in rest)
-
-
-@pytest.mark.parametrize("name", ["hoecken", "pumpjack", "whitworth"])
-@pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
-def test_no_symbol_of_a_figure_is_cut_at_its_edge(name: str, size: tuple[int, int]) -> None:
-    scene, phase = load(name), 1.0
-    picture = Picture(scene, size, Look(polygons=True, hud=False), moment=phase)
-    for group in picture.groups(scene.pose(phase, 2)):
-        for line in group.captions:
-            around = line.around(picture.type)
-            assert around.y >= 0
-            assert around.bottom <= size[1]
-            assert around.right <= size[0]
 
 
 @pytest.mark.parametrize("name", ["crank-rocker", "scissor-lift", "whitworth"])
