@@ -91,13 +91,8 @@ class LinkageForm:
 
     @property
     def uniform(self) -> bool:
-        """Whether its linkages may be solved together.
-
-        A motor drives them, they are made of dyads, and a swing goes over to the other closure at both ends.
-        """
-        drive, near = self.linkage.drive, self.linkage.near is self.linkage
-        alone = self.made is None or drive.retraced or group_of(self.linkage) is not None
-        return near and not alone and drive.actuator == MOTOR
+        """Whether its linkages may be solved together."""
+        return self.made is not None and has_form(self.linkage)
 
     def solved(
         self, lengths: Sequence[Array], phases: Array, rates: tuple[float, float], derivatives: int
@@ -145,6 +140,15 @@ class LinkageForm:
         else:
             open_rows[rows] = True
         return places, whole, open_rows
+
+
+def has_form(linkage: Linkage) -> bool:
+    """Tell whether linkages such as this one, with other lengths, may be solved together.
+
+    A motor drives them, they are made of dyads, and a swing goes over to the other closure at both ends.
+    """
+    drive, near = linkage.drive, linkage.near is linkage
+    return near and not drive.retraced and group_of(linkage) is None and drive.actuator == MOTOR
 
 
 def recorded(form: LinkageForm, sample: Sequence[float], derivatives: int) -> Program:

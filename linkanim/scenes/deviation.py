@@ -160,9 +160,10 @@ def tolerance(
             f"a tolerance of {shown(by)}: give a length above zero and of {most} at the most, a tenth of the "
             "linkage's extent"
         )
-    names, quantities = _lengths_of(scene), tuple(_quantities(scene))
+    names = _lengths_of(scene)
+    quantities = tuple(_quantities(scene)) if solved_together(scene, names) else ()
     whole = 1 + len(quantities)
-    if not quantities or not solved_together(scene, names):
+    if not quantities:
         raise BadInput(
             f"{scene.name}: tolerances are worked out for chains of dyads that a turning crank drives, away "
             "from change points and limits"

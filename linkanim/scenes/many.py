@@ -21,7 +21,7 @@ from linkanim.frozen import frozen
 from linkanim.intake import meant
 from linkanim.mechanics.arithmetic import Value
 from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.many import LinkageForm
+from linkanim.mechanics.many import LinkageForm, has_form
 from linkanim.mechanics.measures import DERIVATIVE_OF, NUMBERS, VECTORS, between, direction
 from linkanim.mechanics.motion import Pose, ResultPlaces, arrays, laid_out, read_only
 from linkanim.mechanics.program import Array, Bools
@@ -222,7 +222,8 @@ def _form(scene: Scene, keys: tuple[Key, ...]) -> LinkageForm:
     if keys not in forms:
         own = {one.key: one.value for one in dimensions(scene)}
         usual = tuple(own[key] for key in keys)
-        forms[keys] = LinkageForm(scene.linkage, _made(scene, keys, usual), usual)
+        made = _made(scene, keys, usual) if has_form(scene.linkage) else None
+        forms[keys] = LinkageForm(scene.linkage, made, usual)
     return forms[keys]
 
 
