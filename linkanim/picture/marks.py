@@ -79,6 +79,8 @@ class Glow(Addition):
 
 _GLOW = ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4))
 """How far the light of a joint reaches, in widths of a bar, and how strong it is."""
+_SEEN = 36.0
+"""How much of a dimension line is seen beside its value, at least, in units of the layout: its two arrows."""
 
 
 def measure(setting: DrawSetting, begin: complex, end: complex, shown: DimensionLine) -> Iterator[Group]:
@@ -86,7 +88,7 @@ def measure(setting: DrawSetting, begin: complex, end: complex, shown: Dimension
     if not 1.0 <= abs(end - begin) < np.inf:
         return
     gauge, theme = setting.gauge, setting.theme
-    away, back, words = _label(setting, begin, end, shown.words, strong=shown.chosen)
+    away, back, words = _label(setting, begin, end, shown.words, strong=shown.chosen, lined=True)
     line = Layer(theme.ink, dimension_line(begin, end, away, gauge))
     along = [*_lit(begin, end, gauge)] if shown.chosen else []
     thin = [] if shown.is_bar else [Layer(theme.ink, segments(begin, end, gauge.line))]
@@ -100,14 +102,26 @@ def label_beside(setting: DrawSetting, begin: complex, end: complex, words: str)
 
 
 def _label(
-    setting: DrawSetting, begin: complex, end: complex, words: str, *, strong: bool = False
+    setting: DrawSetting,
+    begin: complex,
+    end: complex,
+    words: str,
+    *,
+    strong: bool = False,
+    lined: bool = False,
 ) -> tuple[complex, Layer, Caption]:
-    """Return the way from a bar to the line above it, or to its side, and words there on their ground."""
+    """Return the way from a bar to the line above it, or to its side, and words there on their ground.
+
+    Beside a line that is too short to be seen around them the words stand beyond it.
+    """
     gauge, layout, size = setting.gauge, setting.layout, setting.layout.small_size
     away = 1j * unit(end - begin)
     away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
     wide, high = setting.type.width(words, size, strong=True) + 0.7 * size, 1.35 * size
-    middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
+    clear = _clear(away, gauge, wide, high)
+    if lined and abs(end - begin) < _extent(1j * away, wide, high) + _SEEN * layout.unit:
+        clear = away + unit(away) * (_extent(away, wide, high) / 2 + 4 * layout.unit)
+    middle = _inside(layout.stage, (begin + end) / 2 + clear, wide, high)
     back = Layer(setting.theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
     at = (middle.real, middle.imag - 0.52 * size)
     return away, back, Caption(words, at, size, setting.theme.ink, "centre", strong=strong)
@@ -115,9 +129,13 @@ def _label(
 
 def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
     """Return the vector from a bar's middle to that of a label of this size at its dimension line."""
-    side = unit(away)
-    reach = abs(side.real) * wide / 2 + abs(side.imag) * high / 2 + 1.7 * gauge.bar
-    return side * max(abs(away), reach)
+    return unit(away) * max(abs(away), _extent(away, wide, high) / 2 + 1.7 * gauge.bar)
+
+
+def _extent(way: complex, wide: float, high: float) -> float:
+    """Return how far a label of this size extends along a direction."""
+    along = unit(way)
+    return abs(along.real) * wide + abs(along.imag) * high
 
 
 def _inside(stage: Rect, middle: complex, wide: float, high: float) -> complex:

@@ -42,3 +42,17 @@ def test_a_value_stays_on_the_stage(at: complex) -> None:
         place = label_beside(setting, at - half, at + half, "120.5 mm").captions[0].around(setting.type)
         assert setting.layout.stage.holds(place.x, place.y)
         assert setting.layout.stage.holds(place.right, place.bottom)
+
+
+@pytest.mark.parametrize("half", [way * size / abs(way) for way in BARS for size in (8, 14, 25)])
+def test_both_arrows_of_a_short_bars_dimension_are_seen(half: complex) -> None:
+    setting = Picture(load("crank-rocker"), (640, 360), Look()).drawing.setting
+    shown = DimensionLine(("A", "B"), 0, 1, "120.5 mm", chosen=False)
+    (group,) = measure(setting, MIDDLE - half, MIDDLE + half, shown)
+    line, ground = group.layers[-2:]
+    corners = [*ground.loops[0]]
+    left, right = (work(one.real for one in corners) for work in (min, max))
+    top, bottom = (work(one.imag for one in corners) for work in (min, max))
+    arrows = [one for loop in line.loops for one in loop if abs(((one - MIDDLE) / half).real) < 1.0]
+    hidden = [one for one in arrows if left < one.real < right and top < one.imag < bottom]
+    assert len(hidden) < len(arrows) / 2
