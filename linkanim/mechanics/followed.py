@@ -55,8 +55,9 @@ class FollowedGroup(LinkGroup):
                 turn = way.position.cross(way.velocity) / square
                 bent = way.position.cross(way.acceleration) / square
                 walk.add_body(Slope(turn, bent), (first, second), way.position)
-        for slide in self.own_slides:
-            walk.travels[slide.point] = read(slide.name)
+        # what slides on several lines travels along the first one, as `Linkage.slides` has it
+        for slide in sorted(self.own_slides, key=lambda one: self.line(one) is None):
+            walk.travels.setdefault(slide.point, read(slide.name))
 
     def hold(self, balance: ForceBalance) -> None:
         """Let its links hold each other, by all their balances at once."""

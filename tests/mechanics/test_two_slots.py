@@ -10,6 +10,7 @@ from mpmath import mp, mpc, mpf
 
 from linkanim.mechanics.centres import blocks, centre, kennedy, slide_between, touch
 from linkanim.mechanics.linkage import Body
+from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -98,3 +99,11 @@ def test_kennedy_s_theorem_leads_to_nothing_by_a_slot_that_the_block_is_not_in()
     linkage = two_slots(named=False).linkage
     links = {"1": None, "2": blocks(linkage)[0], "3": blocks(linkage)[1]}
     assert kennedy(linkage, links) == ()
+
+
+def test_a_block_on_the_lines_of_two_links_travels_along_the_first() -> None:
+    coupling = load("oldham")
+    motion = coupling.solve(phase=[0.0, *PHASES], derivatives=0)
+    o, a, m = (motion.position[name] @ [1, 1j] for name in ("O2", "A", "M"))
+    assert coupling.linkage.slides["M"].start == "O2"
+    assert motion.travel["cross"] == pytest.approx(((m - o) / (a - o) * abs(a - o)).real, abs=1e-12)

@@ -36,7 +36,8 @@ SAMPLE = [("six-bar", "full"), ("slider-crank", "far"), ("hoecken", "dark")]
 
 def _look(name: str, look: str) -> Look:
     """Return a look of a scene; one that a slider drives has no angular velocity."""
-    chart = "input.velocity" if load(name).info.input_name == "slider" else LOOKS[look].chart
+    own = LOOKS[look].chart
+    chart = own if own in load(name).quantities else "input.velocity"
     return replace(LOOKS[look], chart=chart if LOOKS[look].chart else None)
 
 

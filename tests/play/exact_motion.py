@@ -77,14 +77,15 @@ class ExactMotion:
         its two places there it has the one that the motion goes through.
         """
         linkage, coordinate, signs = self.scene.linkage, self.coordinate(phase), self.signs(float(phase))
-        found = places(linkage, coordinate, signs)
+        near = {name: complex(*at) for name, at in self.scene.pose(float(phase), 0).position.items()}
+        found = places(linkage, coordinate, signs, near)
         for joint in linkage.joints:
             if (
                 isinstance(joint, RRR)
                 and abs(found[joint.ends[1]] - found[joint.ends[0]]) < NEARLY_ONE * self.size
             ):
                 seen = complex(*self.scene.pose(float(phase), 0).position[joint.name])
-                other = places(linkage, coordinate, {**signs, joint.name: -signs[joint.name]})
+                other = places(linkage, coordinate, {**signs, joint.name: -signs[joint.name]}, near)
                 if abs(other[joint.name] - seen) < abs(found[joint.name] - seen):
                     signs[joint.name], found = -signs[joint.name], other
         return found
@@ -116,7 +117,7 @@ class ExactMotion:
 
     def travel(self, joint: str, at: dict[str, Place]) -> Any:
         """Return how far along its line a joint is, a fixed one or one that a body carries."""
-        line = self.scene.linkage.joint(joint).slides[0].line
+        line = self.scene.linkage.slides[joint].line
         along = mp.expj(mpf(line.angle))
         if line.on is not None:
             axis = at[line.on[1]] - at[line.on[0]]
@@ -238,6 +239,8 @@ class ExactMotion:
 
     def discriminants(self, coordinate: Any, signs: dict[str, int]) -> dict[str, Any]:
         """Return for each dyad what its root is taken of, as a share of the lengths in it; negative: open."""
+        if not any(joint.dyad for joint in self.scene.linkage.joints):
+            return {}
         at = places(self.scene.linkage, coordinate, signs)
         found = {joint.name: self._discriminant(joint, at) for joint in self.scene.linkage.joints}
         return {name: share for name, share in found.items() if share is not None}
