@@ -136,7 +136,7 @@ class Measured:
 
 @frozen
 class Result:
-    """The result of one run: the machine, and all rows; told as text, as the manual's table, or as JSON."""
+    """The result of one run: the machine, and all rows; as text, as the manual's table, or as JSON."""
 
     machine: Machine
     rows: tuple[Measured, ...]
@@ -162,11 +162,11 @@ class Result:
         lines = []
         for row in (row for row in self.rows if row.key == "batch"):
             for order, what in enumerate(ORDERS):
-                told = [
+                errors = [
                     (case.errors[order], name, case.at[order]) for name, case in row.cases.items() if case.at
                 ]
-                if told:
-                    error, name, at = max(told)
+                if errors:
+                    error, name, at = max(errors)
                     lines.append(_witness(f"{row.mechanism}: {name}", what, error, [at]))
         return lines + [_witness(one.name, "error", one.error, one.at) for one in self.further]
 
@@ -181,8 +181,8 @@ class Result:
         """Return the manual's table, one mechanism after the other, with the machine of the measurement."""
         blank = [""] * (len(TITLES) - 1)
         rows = [line for name, lines in self._by_mechanism() for line in ([f"**{name}**", *blank], *lines)]
-        told = f"{self._note()} Measured on {self.day} on {self.machine.line}.\n"
-        return f"{markdown([TITLES, *rows])}\n\n{told}"
+        note = f"{self._note()} Measured on {self.day} on {self.machine.line}.\n"
+        return f"{markdown([TITLES, *rows])}\n\n{note}"
 
     def as_json(self) -> str:
         """Return one JSON object: the machine, and the rows with every case; null for a missing number."""
@@ -222,8 +222,8 @@ def run(
         for scores in [_scores(mechanism, methods)]
         for entry in methods
     )
-    told = tuple(one.measured(times["", one.name, 0]) for one in more)
-    return Result(this_machine(), measured_rows, date.today(), told)
+    measured_more = tuple(one.measured(times["", one.name, 0]) for one in more)
+    return Result(this_machine(), measured_rows, date.today(), measured_more)
 
 
 def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:

@@ -20,7 +20,7 @@ from pathlib import Path
 from unicodedata import east_asian_width
 
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, latex_has, plain_latex, typeset
-from linkanim.explain.solution import FORCES, INPUT_TITLE, TOLD, Solution
+from linkanim.explain.solution import FORCES, INPUT_TITLE, RESULT_DIGITS, Solution
 from linkanim.explain.steps import (
     HALF,
     MARKED,
@@ -345,14 +345,14 @@ class DocumentForm(ABC):
 
 
 def short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
-    """Return a value in the digits that are told of a result.
+    """Return a value in the digits of a result.
 
     A result has the digits of the solver's value. Where its line does not round to these it has one more, in
     which both are one number, or else fewer.
     """
     true = solved.get(value.symbol, value.value) if value.symbol and value.value else value.value
     there = len(value.shown.partition(".")[2])
-    usual = min(decimals(true, TOLD), there)
+    usual = min(decimals(true, RESULT_DIGITS), there)
     tried = (usual, min(usual + 1, there), *range(usual - 1, -1, -1))
     right = (n for n in tried if abs(float(rounded(true, n)) - value.value) <= HALF * 10**-n)
     return replace(value, shown=rounded(true, next(right, 0)))
@@ -492,10 +492,10 @@ class _Html(DocumentForm):
         """Return a question: on paper those of a page share the room that is left, by their marks."""
         worth = f"<span class='marks'>{_marks(marks)}</span>"
         head = f"<p>{worth}<b>{number}</b> {text}</p>"
-        told = f"<p class='hint'>{hint}</p>" if hint else ""
+        clue = f"<p class='hint'>{hint}</p>" if hint else ""
         room = formulas or "<div class='room'></div>"
         grows = "" if formulas else f" style='flex-grow: {marks}'"
-        return f"<div class='question'{grows}>\n{head}{told}\n{room}\n{answers}\n</div>"
+        return f"<div class='question'{grows}>\n{head}{clue}\n{room}\n{answers}\n</div>"
 
     def answers(self, formulas: list[str]) -> str:
         return f"<p class='answers'>{''.join(f'<span>{one}</span>' for one in formulas)}</p>"

@@ -9,7 +9,7 @@ from typing import Literal
 from linkanim.explain.documents import DocumentForm, short
 from linkanim.explain.formula import Formula, typeset
 from linkanim.explain.questions import ExamQuestion, given, questions
-from linkanim.explain.solution import TOLD, Solution
+from linkanim.explain.solution import RESULT_DIGITS, Solution
 from linkanim.explain.steps import Equation, Given, marked
 from linkanim.words import said, sentences, to_say
 
@@ -62,7 +62,7 @@ def _pages(
 
 
 def _where(solution: Solution, form: DocumentForm) -> str:
-    """Return where the linkage is, and the rules for all numbers of the sheet, told once."""
+    """Return where the linkage is, and the rules for all numbers of the sheet."""
     pins = [joint.name for joint in solution.request.scene.linkage.joints if solution.places[joint.name] == 0]
     steady = not (solution.request.acceleration or solution.request.swings)
     return form.paragraph(
@@ -74,7 +74,7 @@ def _where(solution: Solution, form: DocumentForm) -> str:
                 said(
                     "Angles are counted counterclockwise from the x axis, and so are angular velocities. "
                     "The numbers given are exact; give results in {digits} significant digits.",
-                    digits=said(_DIGITS[TOLD]),
+                    digits=said(_DIGITS[RESULT_DIGITS]),
                 ),
                 said("The velocity of the input is constant.") if steady else "",
             )

@@ -412,8 +412,8 @@ _FEWEST, _MOST = 6, 14
 _AGREES = 5e-6
 """The share of itself by which a result may differ from the solver's."""
 INPUT_TITLE = to_say("The input")
-TOLD = 4
-"""Significant digits of a result that is told."""
+RESULT_DIGITS = 4
+"""Significant digits of a result."""
 _LONG = 100.0
 """The factor on the median bar beyond which a longest bar does not set the decimals of lengths."""
 _TINY = 1e-300
@@ -571,10 +571,10 @@ def _carried(solution: Solution) -> Iterator[Step]:
 
 
 def _has_fewer(value: Formula, true: float) -> bool:
-    """Return whether a result has fewer right digits than are told."""
+    """Return whether a result has fewer right digits than it is to have."""
     places = len(value.shown.partition(".")[2])
-    coarse = abs(value.value - true) > 10.0 ** (1 - TOLD) * abs(true) / 2
-    return value.value != 0 and (coarse or places < decimals(true, TOLD))
+    coarse = abs(value.value - true) > 10.0 ** (1 - RESULT_DIGITS) * abs(true) / 2
+    return value.value != 0 and (coarse or places < decimals(true, RESULT_DIGITS))
 
 
 def _compared(solution: Solution) -> Iterator[tuple[Outcome, float]]:
@@ -597,8 +597,8 @@ def _agrees(solution: Solution) -> bool:
 
 
 def _same_digits(value: Formula, true: float) -> bool:
-    """Return whether a value and the solver's are one number in the digits that are told of it."""
-    places = decimals(true, TOLD) if math.isfinite(true) else _MOST
+    """Return whether a value and the solver's are one number in the digits that it is to have."""
+    places = decimals(true, RESULT_DIGITS) if math.isfinite(true) else _MOST
     if places > len(value.shown.partition(".")[2]):
         return True
     return abs(float(rounded(value.value, places)) - true) <= HALF * 10.0**-places

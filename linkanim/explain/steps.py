@@ -301,7 +301,7 @@ class Work:
     slides: dict[str, Formula] = field(default_factory=dict)
     given: dict[Symbol, Given] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)
-    told: set[str] = field(default_factory=set)
+    sentences: set[str] = field(default_factory=set)
 
     def step(self, title: str, write: Callable[[], object], *, with_given: bool = False) -> Step:
         """Return the step of the lines that `write` adds; `with_given`, behind the numbers given for them."""
@@ -317,8 +317,8 @@ class Work:
 
     def say_once(self, text: str) -> None:
         """Add a sentence if it was not added before."""
-        if text not in self.told:
-            self.told.add(text)
+        if text not in self.sentences:
+            self.sentences.add(text)
             self.say(text)
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers, scale: Scale | None = None) -> Formula:

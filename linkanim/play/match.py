@@ -111,9 +111,9 @@ def trace(joints: Linkage4) -> Complex:
     there, back = curves if joints.closure > 0 else curves[::-1]
     if np.isfinite(there).all():
         return there
-    shut = np.flatnonzero(~np.isfinite(there))
+    gaps = np.flatnonzero(~np.isfinite(there))
     # the range of the crank, from limit to limit, and back
-    open_ = np.arange(shut[-1] + 1 - _MOMENTS, shut[0])
+    open_ = np.arange(gaps[-1] + 1 - _MOMENTS, gaps[0])
     path: Complex = np.concatenate([there[open_ % _MOMENTS], back[open_[::-1] % _MOMENTS]])
     path = path[np.isfinite(path)]
     return np.append(path, path[:1])

@@ -86,10 +86,10 @@ class _Posed(NamedTuple):
         """Return the feedback of an answer, as HTML."""
         slip = self.answers[number].slip
         if number == self.question.right:
-            told = said("Right.")
+            words = said("Right.")
         else:
-            told = said("No: that is {slip}.", slip=slip) if slip else said("No.")
-        return f"<p>{escape(told)}</p>"
+            words = said("No: that is {slip}.", slip=slip) if slip else said("No.")
+        return f"<p>{escape(words)}</p>"
 
     @property
     def why(self) -> str:

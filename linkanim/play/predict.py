@@ -359,12 +359,12 @@ class Predict(Game):
         if wrong:
             kinds = Counter(one.kind for one in wrong)
             comma = said_as("list", ", ")
-            told = comma.join(
+            missed = comma.join(
                 said("{kind} ({count} times)", kind=said(kind), count=count) if count > 1 else said(kind)
                 for kind, count in kinds.items()
             )
             titles = comma.join(dict.fromkeys(said(load(one.scene).title) for one in wrong))
-            yield said("Missed at first: {kinds}.", kinds=told)
+            yield said("Missed at first: {kinds}.", kinds=missed)
             yield said("In: {titles}.", titles=titles)
 
 

@@ -190,17 +190,17 @@ def legend(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:
     figured, names_ = question_figure(question, size), question.scene.info.link_names
     lines = [line for line in lines_of(figured.picture, question.phase) if line.of.startswith("body:")]
     labels = {line.of.partition(":")[2]: line.text for line in lines}
-    told = []
+    entries = []
     for body in question.scene.linkage.bodies:
         label, word = labels.get(body.name), name_said(names_[body.name])
         asked = re.search(rf"{re.escape(phrase(body, names_))}(?![a-z0-9])", question.text)
         if label is None and asked:
-            told.append(
+            entries.append(
                 said("{part}: {measure}", part=word, measure="–".join(body.joints[:2]) or body.slider)
             )
         elif label and label.isdecimal() and word != label:
-            told.append(f"{label} {word}")
-    return said_as("list", ", ").join(told)
+            entries.append(f"{label} {word}")
+    return said_as("list", ", ").join(entries)
 
 
 def figure_words(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> str:

@@ -126,7 +126,7 @@ def keep(changes: Iterable[str], path: Path, *, own: bool) -> str | None:
     Where the file is the program's `own`, a damaged one is set aside, and a sentence says where. Errors as in
     `load` and `save`.
     """
-    told = None
+    message = None
     with atomic_files.alone(path):
         try:
             before = load(path)
@@ -136,10 +136,10 @@ def keep(changes: Iterable[str], path: Path, *, own: bool) -> str | None:
             aside = atomic_files.set_aside(path) if own else None
             if aside is None:
                 raise
-            before, told = Scores(), f"{error}; it is kept as {aside.name}, and scores begin anew"
+            before, message = Scores(), f"{error}; it is kept as {aside.name}, and scores begin anew"
         after = before
         for name, _, value in (change.partition("=") for change in changes):
             after = after.having(name, value)
         if after != before:
             save(after, path)
-    return told
+    return message

@@ -33,6 +33,7 @@ _PROBES = (0.37, 2.9)
 _ALIKE = 1e-7
 """Poses and curves that are nearer, in shares of the longest length, are one."""
 _SAMPLES = 24
+Progress = Callable[[int, int], None]
 
 
 @frozen
@@ -53,7 +54,7 @@ class SceneClosure:
         return {name: (place.real, place.imag) for name, place in _pose(self.scene.mechanism).items()}
 
 
-def closures(scene: Scene, progress: Callable[[int, int], None] | None = None) -> tuple[SceneClosure, ...]:
+def closures(scene: Scene, progress: Progress | None = None) -> tuple[SceneClosure, ...]:
     """Return the closures of a scene, the scene's own first.
 
     Those of links that are solved together are searched for from random starts, in the pose of the scene.
@@ -79,16 +80,16 @@ def described(choices: Sequence[SceneClosure], place: int) -> tuple[str, ...]:
     return str(number), way, info.motion_words, info.class_said, curve if one.curve else ""
 
 
-def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[Scene, dict[str, str]]]:
+def _variants(scene: Scene, progress: Progress) -> Iterator[tuple[Scene, dict[str, str]]]:
     """Yield the scene with each choice of its dyads' closures that can be assembled, its own first."""
     if "points" in scene.document:
-        yield from _in_other_poses(scene, told)
+        yield from _in_other_poses(scene, progress)
         return
     choices = closure_choices(scene)
     _refuse_many(len(choices))
     ways = [*product(*(names for _, *names in choices))]
     for n, way in enumerate(ways):
-        told(n, len(ways))
+        progress(n, len(ways))
         document = scene.document
         sides = {}
         for (key, *_), name in zip(choices, way, strict=True):
@@ -99,7 +100,7 @@ def _variants(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[
             continue
 
 
-def _in_other_poses(scene: Scene, told: Callable[[int, int], None]) -> Iterator[tuple[Scene, dict[str, str]]]:
+def _in_other_poses(scene: Scene, progress: Progress) -> Iterator[tuple[Scene, dict[str, str]]]:
     """Yield the scene of points in other poses: of its group, and for each of those of its dyads."""
     seeds = [scene]
     linkage = scene.linkage
@@ -111,7 +112,7 @@ def _in_other_poses(scene: Scene, told: Callable[[int, int], None]) -> Iterator[
     ways = [*product(*([False, True] for _ in dyads))]
     for m, seed in enumerate(seeds):
         for n, way in enumerate(ways):
-            told(m * len(ways) + n, len(seeds) * len(ways))
+            progress(m * len(ways) + n, len(seeds) * len(ways))
             over = {joint.name for joint, other in zip(dyads, way, strict=True) if other}
             try:
                 yield (_flipped(seed, over) if over else seed), {}

@@ -96,8 +96,8 @@ def solve_many(
     given = [given_numbers(name, of, "solve_many") for name, of in (*lengths.items(), ("phase", phase))]
     count = max(one.size for one in given)
     if any(one.ndim > 1 or one.size not in (1, count) for one in given) or not count:
-        told = ", ".join(f"{name} {one.shape}" for name, one in zip((*lengths, "phase"), given, strict=True))
-        raise BadInput(f"solve_many({told}): give each N numbers, or one for all")
+        sizes = ", ".join(f"{name} {one.shape}" for name, one in zip((*lengths, "phase"), given, strict=True))
+        raise BadInput(f"solve_many({sizes}): give each N numbers, or one for all")
     *rows, phases = (one if one.shape == (count,) else np.repeat(one.ravel(), count) for one in given)
     scene.check_turns("phase", phases)
     w, a = scene.linkage.drive.speed if speed is None else float(speed), float(acceleration)
