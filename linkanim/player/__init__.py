@@ -30,6 +30,7 @@ From the ground up; a module imports from those before it only:
     naming     a mode: the name of the file to be written
     record_dialog  a mode: how a recording is made, and where it goes
     bands      a mode: the band within which traced points stay
+    ruler      a mode: how far two places are apart, and in which direction
     modes      all modes, and the one table of their keys
     actions    the table of actions, and `advance(state, actions)`
     tape       what was done, frame by frame

@@ -174,7 +174,7 @@ KEYS: Table = {
             _of_look("over") + _of_look("dead_centres"),
         ),
         KeyRow("K (Shift: more)", "the list of quantities", on("k", "list") + on("shift+k", "list", "below")),
-        KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
+        KeyRow("Shift+U; Shift+R", "unit of lengths; a ruler", _of_look("unit") + on("shift+r", "ruler")),
     ),
     "edit": (
         KeyRow(

@@ -17,6 +17,7 @@ from linkanim.player.pencil import Pencil
 from linkanim.player.posing import Posing
 from linkanim.player.reassembling import OpenClosures
 from linkanim.player.record_dialog import RecordDialog
+from linkanim.player.ruler import Ruler
 from linkanim.player.shelving import OpenShelf
 from linkanim.player.state import Game, Mode, Resolver
 
@@ -32,6 +33,7 @@ MODES: tuple[type[Mode], ...] = (
     Posing,
     Layering,
     ToleranceBand,
+    Ruler,
     Game,
     Naming,
     RecordDialog,
