@@ -43,7 +43,8 @@ def measured(player: Player, one: str, other: str) -> str:
     places = player.state.displayed.pose(player.state.phase, 0).position
     (x, y), (u, v) = places[one], places[other]
     angle = degrees(atan2(v - y, u - x)) % 360
-    return f"{subscripted(one)} to {subscripted(other)}: {four_digits(dist((x, y), (u, v)))} mm at {four_digits(angle)}°"
+    long = f"{four_digits(dist((x, y), (u, v)))} mm"
+    return f"{subscripted(one)} to {subscripted(other)}: {long} at {four_digits(angle)}°"
 
 
 def test_two_clicks_measure_a_distance_and_an_angle_that_follow_the_joints(player: Player) -> None:
