@@ -28,9 +28,7 @@ from linkanim.picture.look import Over
 from linkanim.picture.quantities import (
     Axis,
     Floats,
-    broken,
     course,
-    gain_of,
     input_title,
     linear,
     quantity,
@@ -174,11 +172,11 @@ def _there_and_back(scene: Scene, over: Over | None) -> bool:
 def _of(scene: Scene, one: Quantity, pace: Pace, over: Over | None, cycle: Motion) -> Iterator[Curve]:
     """Yield the curve of a quantity, or one for each component of a vector."""
     series = series_of(scene, one, pace.motion(scene, cycle.phase))
-    series = broken(series, one, cycle)
+    series = series.broken(one.unbounded_between(cycle))
     if _there_and_back(scene, over):
         angle = np.degrees(scene.solve(phase=series.phases, derivatives=0).coordinate)
         x, phases = np.append(angle, angle[0]), np.append(series.phases, scene.period)
-        values = np.vstack([series.values, series.values[0] + gain_of(series)])
+        values = np.vstack([series.values, series.values[0] + series.gain])
     else:
         along = course(scene, pace.speed, over)
         x, values = along.laid(series)

@@ -27,7 +27,6 @@ from linkanim.picture.quantities import (
     Series,
     around,
     axis_of,
-    broken,
     course,
     quantity,
     series_of,
@@ -290,7 +289,7 @@ class ChartPanel:
     def series(self) -> Series:
         """The quantity over one true period."""
         series = series_of(self.figure.scene, self.quantity, self._cycle)
-        return broken(series, self.quantity, self.figure.cycle)
+        return series.broken(self.quantity.unbounded_between(self.figure.cycle))
 
     @cached_property
     def _cycle(self) -> Motion:

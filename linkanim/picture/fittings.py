@@ -247,6 +247,46 @@ class Bar:
     reaches: tuple[str, ...] = ()
     """The joint that travels in its slot."""
 
+    def slotted(self, context: DrawContext) -> Part:
+        """Return its slot as a part: the bar is as long as that needs."""
+        wide = rounded([*(self.slot or (0j,))], SLOTTED * context.gauge.bar)
+        return Part(self.ends[0], *self.ends, (Layer(context.theme.metal, [wide]),))
+
+
+_Line = tuple[complex, complex]
+"""Both ends of a line in pixels."""
+
+
+class _Channel(NamedTuple):
+    """A guide in its place, in pixels: the middles of its ends, half its width, and its lines.
+
+    Each line stands with the side of it that is hatched.
+    """
+
+    begin: complex
+    end: complex
+    aside: float
+    lines: list[tuple[_Line, int]]
+
+    def off(self, lines: Iterable[_Line]) -> list[_Line]:
+        """Return the parts of some lines outside it."""
+        return [part for line in lines for part in self._outside(*line)]
+
+    def _outside(self, begin: complex, end: complex) -> Iterator[_Line]:
+        """Yield the parts of a line before and beyond it; the whole line where the two do not cross."""
+        along, long = unit(self.end - self.begin), abs(self.end - self.begin)
+        first, last = ((place - self.begin) / along for place in (begin, end))
+        if first.imag * last.imag >= 0 or min(abs(first.imag), abs(last.imag)) < self.aside:
+            yield begin, end
+            return
+        where = first.imag / (first.imag - last.imag)
+        half = self.aside / abs(first.imag - last.imag)
+        if not 0 < (first + where * (last - first)).real < long:
+            yield begin, end
+            return
+        yield begin, begin + (where - half) * (end - begin)
+        yield begin + (where + half) * (end - begin), end
+
 
 class GuideRails(NamedTuple):
     """Two lines on the ground and the joint that travels between them: `along`, y down, has length 1.
@@ -260,6 +300,17 @@ class GuideRails(NamedTuple):
     aside: float
     beyond: tuple[float, float]
     head: bool = False
+
+    def channel(self, context: DrawContext) -> _Channel:
+        """Return it as long as the joint's travel needs."""
+        path = context.figure.path(self.joint, context.view) * np.conj(self.along)
+        travel, across = path.real, 1j * float(np.nanmean(path.imag))
+        begin = self.along * (float(np.nanmin(travel)) - self.beyond[0] + across)
+        end = self.along * (float(np.nanmax(travel)) + self.beyond[1] + across)
+        off = 1j * self.along * self.aside
+        lines = [((begin + side * off, end + side * off), side) for side in (1, -1)]
+        head = [((end + off, end - off), 1)] if self.head else []
+        return _Channel(begin, end, self.aside, lines + head)
 
 
 @frozen
@@ -293,13 +344,6 @@ def _fitted(joint: Joint, context: DrawContext) -> Iterator[Fitting]:
         yield from (_slider(joint, slide.line, context) for slide in own)
 
 
-def _slot_part(bar: Bar, context: DrawContext) -> Part:
-    """Return the slot of a bar as a part: the bar is as long as that needs."""
-    ends = bar.slot or (0j,)
-    wide = rounded(list(ends), SLOTTED * context.gauge.bar)
-    return Part(bar.ends[0], *bar.ends, (Layer(context.theme.metal, [wide]),))
-
-
 def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, Loop, Loop]]:
     """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
 
@@ -310,12 +354,13 @@ def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, 
     scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
     thin = scale * 1e-6 * max(figure.shortest, 1e-6 * figure.extent)
     context = DrawContext(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
-    parts = [part for fitting in fittings(context) for part in (*fitting.behind, *fitting.before)]
-    parts += [_slot_part(fitting.bar, context) for fitting in fittings(context) if fitting.bar]
+    known = fittings(context)
+    parts = [part for fitting in known for part in (*fitting.behind, *fitting.before)]
+    parts += [fitting.bar.slotted(context) for fitting in known if fitting.bar]
     step = max(len(figure.cycle.phase) // _TRIED, 1)
-    for fitting in fittings(context):
+    for fitting in known:
         if fitting.guide and fitting.guide.head:
-            ends = [end for line, _ in _channel(fitting.guide, context).lines for end in line]
+            ends = [end for line, _ in fitting.guide.channel(context).lines for end in line]
             yield (
                 np.array(ends, np.complex128).conj() / scale,
                 np.zeros(1, np.complex128),
@@ -444,11 +489,15 @@ def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) 
 
 def rails_of(context: DrawContext) -> Iterator[list[Loop]]:
     """Yield the lines of each guide on the ground; they are open where another guide crosses them."""
-    places = [_channel(fitting.guide, context) for fitting in fittings(context) if fitting.guide]
+    places = [fitting.guide.channel(context) for fitting in fittings(context) if fitting.guide]
     for place in places:
-        others = [other for other in places if other is not place]
-        parts = [(part, side) for line, side in place.lines for part in _opened(line, others)]
-        yield [loop for part, side in parts for loop in hatched(*part, context.gauge, side)]
+        rails = list[Loop]()
+        for line, side in place.lines:
+            parts = [line]
+            for other in places:
+                parts = other.off(parts) if other is not place else parts
+            rails += [loop for part in parts for loop in hatched(*part, context.gauge, side)]
+        yield rails
 
 
 def rail_reach(context: DrawContext, joint: str) -> float:
@@ -465,58 +514,6 @@ def _rails(name: str, along: complex, gauge: Gauge) -> GuideRails:
 
 def _reach_of_rails(gauge: Gauge) -> float:
     return (_BLOCK[1] / 2) * gauge.bar + gauge.line
-
-
-_Line = tuple[complex, complex]
-"""Both ends of a line in pixels."""
-
-
-class _Channel(NamedTuple):
-    """A guide in its place, in pixels: the middles of its ends, half its width, and its lines.
-
-    Each line stands with the side of it that is hatched.
-    """
-
-    begin: complex
-    end: complex
-    aside: float
-    lines: list[tuple[_Line, int]]
-
-
-def _channel(guide: GuideRails, context: DrawContext) -> _Channel:
-    """Return a guide as long as the joint's travel needs."""
-    path = context.figure.path(guide.joint, context.view) * np.conj(guide.along)
-    travel, across = path.real, 1j * float(np.nanmean(path.imag))
-    begin = guide.along * (float(np.nanmin(travel)) - guide.beyond[0] + across)
-    end = guide.along * (float(np.nanmax(travel)) + guide.beyond[1] + across)
-    off = 1j * guide.along * guide.aside
-    lines = [((begin + side * off, end + side * off), side) for side in (1, -1)]
-    head = [((end + off, end - off), 1)] if guide.head else []
-    return _Channel(begin, end, guide.aside, lines + head)
-
-
-def _opened(line: _Line, others: Iterable[_Channel]) -> list[_Line]:
-    """Return the parts of a line outside other guides."""
-    parts = [line]
-    for other in others:
-        parts = [part for whole in parts for part in _outside(*whole, other)]
-    return parts
-
-
-def _outside(begin: complex, end: complex, other: _Channel) -> Iterator[_Line]:
-    """Yield the parts of a line before and beyond a channel; the whole line where the two do not cross."""
-    along, long = unit(other.end - other.begin), abs(other.end - other.begin)
-    first, last = ((place - other.begin) / along for place in (begin, end))
-    if first.imag * last.imag >= 0 or min(abs(first.imag), abs(last.imag)) < other.aside:
-        yield begin, end
-        return
-    where = first.imag / (first.imag - last.imag)
-    half = other.aside / abs(first.imag - last.imag)
-    if not 0 < (first + where * (last - first)).real < long:
-        yield begin, end
-        return
-    yield begin, begin + (where - half) * (end - begin)
-    yield begin + (where + half) * (end - begin), end
 
 
 def _facing(line: Line, context: DrawContext) -> Loop:

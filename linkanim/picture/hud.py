@@ -93,7 +93,7 @@ def rows_of(scene: Scene) -> tuple[Row, ...]:
     they are known, in newtons, tension positive. A damper without a coefficient is a cylinder, with its
     length. Lengths are in the scene's unit.
     """
-    return *_input_rows(scene), *(_row(one, scene.length_unit) for one in measured(scene))
+    return *_input_rows(scene), *(one.row(scene.length_unit) for one in measured(scene))
 
 
 def _input_rows(scene: Scene) -> Iterator[Row]:
@@ -144,6 +144,16 @@ class MeasuredRow(NamedTuple):
     quantity: Quantity
     step: float
 
+    def row(self, length_unit: str) -> Row:
+        """Return the row that puts the quantity into words; None where it is not known."""
+        unit = self.quantity.display_unit(length_unit)
+
+        def value(pose: Pose) -> str | None:
+            value = self.quantity.displayed(pose)
+            return None if value is None else f"{stepped(float(value), self.step)} {unit}"
+
+        return Row(self.rank, self.label, value)
+
 
 def measured(scene: Scene) -> Iterator[MeasuredRow]:
     """Yield the quantities in a scene's rows: those of its struts, and what the input has to deliver."""
@@ -181,17 +191,6 @@ def charted(scene: Scene) -> dict[str, str]:
     tokens = {driven_name(scene): f"{driven}.{coordinate.name}", _driven_rate(scene): coordinate.rate_token}
     tokens |= {one.label: one.quantity.token for one in measured(scene)}
     return {label: token for label, token in tokens.items() if token in scene.quantities}
-
-
-def _row(one: MeasuredRow, length_unit: str) -> Row:
-    """Return the row that puts a quantity into words; None where it is not known."""
-    quantity, unit = one.quantity, one.quantity.display_unit(length_unit)
-
-    def value(pose: Pose) -> str | None:
-        value = quantity.displayed(pose)
-        return None if value is None else f"{stepped(float(value), one.step)} {unit}"
-
-    return Row(one.rank, one.label, value)
 
 
 def note(scene: Scene, pose: Pose) -> str:

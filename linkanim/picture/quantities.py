@@ -42,6 +42,24 @@ class Series(NamedTuple):
     unit: str
     labels: tuple[str, ...]
 
+    @property
+    def gain(self) -> NDArray[np.float64]:
+        """By how much each column grows in a period: whole turns for an angle, else 0."""
+        values = self.values
+        if self.unit != "°" or len(values) < 2:
+            return np.zeros(values.shape[1])
+        with np.errstate(invalid="ignore"):
+            turns = np.rint((2 * values[-1] - values[-2] - values[0]) / 360.0)
+        return np.asarray(360.0 * np.nan_to_num(turns))
+
+    def broken(self, places: NDArray[np.float64]) -> Series:
+        """Return it with an infinite value added at the phases between which it is unbounded."""
+        if not len(places):
+            return self
+        index = np.searchsorted(self.phases, places)
+        phases, values = np.insert(self.phases, index, places), np.insert(self.values, index, np.inf, axis=0)
+        return self._replace(phases=phases, values=values)
+
 
 def quantity(scene: Scene, token: str) -> Quantity:
     """Return the quantity of a token, which may name a body as the scene does, or as it is shown.
@@ -74,16 +92,6 @@ def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
             tokens.append(begun)
             begun = ""
     return (*tokens, begun) if begun else tuple(tokens)
-
-
-def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
-    """Return a cycle's series with an infinite value added wherever it is unbounded between two instants."""
-    places = quantity.unbounded_between(cycle)
-    if not len(places):
-        return series
-    index = np.searchsorted(series.phases, places)
-    phases, values = np.insert(series.phases, index, places), np.insert(series.values, index, np.inf, axis=0)
-    return series._replace(phases=phases, values=values)
 
 
 def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
@@ -326,7 +334,7 @@ class Course:
 
     def laid(self, series: Series) -> tuple[Floats, Floats]:
         """Return a series along the course, with both ends added: x (n + 2,) rising, values (n + 2, k)."""
-        gain = gain_of(series)
+        gain = series.gain
         x = self.x_of(series.phases)
         turns = np.rint((self.phase_of(x) - series.phases) / self.period)
         order = np.argsort(x)
@@ -337,17 +345,6 @@ class Course:
         with np.errstate(invalid="ignore"):
             start = after if part == 1.0 else before + (after - before) * part
         return np.r_[0.0, x, self.span], np.vstack([start, values, start + step])
-
-
-def gain_of(series: Series) -> Floats:
-    """Return by how much each column grows in a period: whole turns for an angle, else 0."""
-    values = series.values
-    if series.unit != "°" or len(values) < 2:
-        return np.zeros(values.shape[1])
-    with np.errstate(invalid="ignore"):
-        turns = np.rint((2 * values[-1] - values[-2] - values[0]) / 360.0)
-    gain: Floats = 360.0 * np.nan_to_num(turns)
-    return gain
 
 
 def axes_of(scene: Scene) -> tuple[Over, ...]:
