@@ -86,9 +86,9 @@ def spoken() -> str:
 
 
 @contextmanager
-def speaking(language: str) -> Iterator[None]:
-    """Speak a language, such as "zh_TW", while the block runs: what is drawn and written in it says so."""
-    before = _SPOKEN.set(language)
+def speaking(language: str | None) -> Iterator[None]:
+    """Speak a language, such as "zh_TW", while the block runs; None for the one that is spoken."""
+    before = _SPOKEN.set(language or _SPOKEN.get())
     try:
         yield
     finally:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, Self
 
 from linkanim.frozen import frozen
+from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group
@@ -14,6 +15,10 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
     from linkanim.synthesis.curves import DrawnCurve
+
+
+Over = tuple[Point, float]
+"""The place of a sheet under the mouse, in its unit, and how near is on a thing."""
 
 
 class Addition:
@@ -41,6 +46,11 @@ class Addition:
     def stroke(self) -> DrawnCurve | None:
         """A curve that stands behind the linkage."""
         return None
+
+    def seen(self, over: Over | None, *, recorded: bool) -> Self:
+        """Return it with the mouse `over` a place, or as a recording shows it."""
+        del over, recorded
+        return self
 
     def behind(self, setting: DrawSetting, pose: Pose) -> Iterable[Group]:
         """Return what lies behind the linkage's bars."""

@@ -328,12 +328,12 @@ class Fitting:
 
 def fittings(context: DrawContext) -> tuple[Fitting, ...]:
     """Return the fittings of all joints that have some, in the joints' order."""
-    return tuple(one for joint in context.figure.linkage.joints for one in _fitted(joint, context))
+    sliding = [(joint, joint.slides) for joint in context.figure.linkage.joints]
+    return tuple(one for joint, slides in sliding if slides for one in _fitted(joint, slides, context))
 
 
-def _fitted(joint: Joint, context: DrawContext) -> Iterator[Fitting]:
+def _fitted(joint: Joint, slides: Sequence[Slide], context: DrawContext) -> Iterator[Fitting]:
     """Yield what a joint adds by what slides: itself on lines, a pin in its own bar's slot, or both."""
-    slides = joint.slides
     own = [slide for slide in slides if slide.point == joint.name]
     others = [slide for slide in slides if slide.point != joint.name]
     if own and others:

@@ -27,8 +27,8 @@ from linkanim.picture.quantities import (
     round_below,
     sign_of,
     speed_in,
+    speed_teller,
     speed_unit,
-    speed_words,
 )
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc
@@ -97,10 +97,10 @@ def rows_of(scene: Scene) -> tuple[Row, ...]:
 
 
 def _input_rows(scene: Scene) -> Iterator[Row]:
-    info, name = scene.info, driven_name(scene)
+    info, name, at_speed = scene.info, driven_name(scene), speed_teller(scene)
     if info.full_turn:
         yield Row(0, name, lambda pose: _turned(pose.coordinate))
-        yield Row(1, said("input speed"), lambda pose: speed_words(scene, pose.input_speed))
+        yield Row(1, said("input speed"), lambda pose: at_speed(pose.input_speed))
     else:
         across = "…".join(driven_words(scene, end) for end in info.input_range)
         yield Row(0, name, lambda pose: driven_words(scene, pose.coordinate))
@@ -110,7 +110,7 @@ def _input_rows(scene: Scene) -> Iterator[Row]:
             if not scene.mechanism.retraced:
                 back = said("same closure at {place}", place=driven_words(scene, info.kept[0]))
             yield Row(5, said("returns"), lambda _: back)
-        yield Row(1, said("input rate"), lambda pose: speed_words(scene, pose.input_speed))
+        yield Row(1, said("input rate"), lambda pose: at_speed(pose.input_speed))
         yield Row(3, _driven_rate(scene), _live(scene))
     if info.true_period != 1:
         turns = said("{count} turns", count=info.true_period)
@@ -193,15 +193,20 @@ def charted(scene: Scene) -> dict[str, str]:
     return {label: token for label, token in tokens.items() if token in scene.quantities}
 
 
-def note(scene: Scene, pose: Pose) -> str:
+def note(special: Sequence[Special], pose: Pose) -> str:
     """Return what is special at a pose: the nearest limit of the input, or change point; else "".
 
     It gives way where another place is as near. Where notes would follow each other too fast to be read,
     there is none.
     """
-    known = [(_nearness(pose, away, near), words) for away, near, words in _special(scene, pose)]
-    (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""), (0.0, ""))
-    pause = tau / max(len(known), 1) / abs(pose.input_speed) if pose.input_speed else inf
+    if not special:
+        return ""
+    known = [
+        (_nearness(pose, _apart(pose.phase if by_phase else pose.coordinate, at), near), words)
+        for by_phase, at, near, words in special
+    ]
+    (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""))
+    pause = tau / len(known) / abs(pose.input_speed) if pose.input_speed else inf
     return words if most - next_most >= 0.5 and pause >= 1.5 * _READ else ""
 
 
@@ -212,27 +217,18 @@ def _nearness(pose: Pose, away: float, near: float) -> float:
     return max(by_angle, eased(1.0 + (_HELD - seconds) / _EASED))
 
 
-def notes(scene: Scene) -> tuple[str, ...]:
-    """Return all that `note` ever says of a scene."""
-    return tuple(words for *_, words in _special(scene, scene.pose(0.0)))
+Special = tuple[bool, float, float, str]
+"""A special place: whether a phase (rad), else the input's coordinate; from how far it is near; its words."""
 
 
-def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
-    """Yield the input's limits and change points: how far off, what distance is near (rad), and words."""
+def special_places(scene: Scene) -> Iterator[Special]:
+    """Yield the input's limits and change points."""
     info = scene.info
     if not info.full_turn:
         for limit, at in zip(info.ends, (0.0, pi), strict=True):
-            yield (
-                _apart(pose.phase, at),
-                _NEAR_LIMIT,
-                said("near the limit {place}", place=driven_words(scene, limit)),
-            )
+            yield True, at, _NEAR_LIMIT, said("near the limit {place}", place=driven_words(scene, limit))
     for point in info.change_points if scene.linkage.drive.coordinate.is_angle else ():
-        yield (
-            _apart(pose.coordinate, point),
-            _NEAR_CHANGE,
-            said("near the change point {place}", place=_turned(point)),
-        )
+        yield False, point, _NEAR_CHANGE, said("near the change point {place}", place=_turned(point))
 
 
 def _turned(angle: float) -> str:
@@ -326,9 +322,13 @@ class Hud:
         """The rows that are shown."""
         return tuple(row for row in rows_of(self.scene) if row.label in self.block.rows)
 
+    @cached_property
+    def _special(self) -> tuple[Special, ...]:
+        return tuple(special_places(self.scene))
+
     def notes(self, pose: Pose) -> Iterator[Caption]:
         """Yield the note on what is special at a pose."""
-        size, words = self.block.size, note(self.scene, pose)
+        size, words = self.block.size, note(self._special, pose)
         for n, line in enumerate(self.type.wrapped(words, size, self.place.width) if words else ()):
             at = (self.place.x, self.place.y + self.block.note + 1.2 * size * n)
             yield Caption(line, at, size, self.theme.dim)
@@ -569,7 +569,7 @@ def _column(
     note = first + STEP * size * len(rows) + (0.3 * size if rows else 0.0)
     key = note
     if rows:
-        words = [words for scene in scenes for words in notes(scene)]
+        words = [words for scene in scenes for *_, words in special_places(scene)]
         key += 1.2 * size * max((len(type_.wrapped(one, size, width)) for one in words), default=0)
     high = KEY_STEP * small * keys + LISTED_STEP * small * len(listed)
     high += 0.4 * small if keys and listed else 0.0

@@ -99,6 +99,8 @@ class Picture:
                 subject_of(placed, ghost=look.ghost).figure.shortest if placed else self.figure.shortest
             )
             self.gauge = gauge(self.layout.unit, shortest * self.fitted.scale)
+        self._overruns = look.framed or self.held or self.view != self.composition.view
+        """Whether the linkage may run beyond its stage."""
         setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
         self.drawing = Drawing(setting, apart=apart, moment=moment)
         self._chart: ChartStrips | None = self._charted()
@@ -270,11 +272,6 @@ class Picture:
         slots += [self.layout.caption] if self.layout.caption else []
         loops = [slot.middle + box(slot.width, slot.height) for slot in slots]
         yield Group("slots", [Layer(self.theme.background, loops)] if loops else (), over=True)
-
-    @property
-    def _overruns(self) -> bool:
-        """Whether the linkage may run beyond its stage."""
-        return self.look.framed or self.held or self.view != self.composition.view
 
     def _paper(self, photo: Photo | None) -> Group:
         """Return the sheet: with its ground line where a linkage is built on it."""

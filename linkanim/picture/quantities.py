@@ -6,7 +6,7 @@ are here, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import ceil, degrees, floor, log10, pi, radians
@@ -22,7 +22,7 @@ from linkanim.mechanics.quantities import Quantity, input_symbol, look_up
 from linkanim.picture.look import Over
 from linkanim.scenes.scene import Scene
 from linkanim.units import SPEED, short, split, stepped, typeset
-from linkanim.words import name_said, said
+from linkanim.words import name_said, said, to_say
 
 # What a chart shows of a scene: quantities by name, and their values over one true period.
 
@@ -151,13 +151,19 @@ def speed_words(scene: Scene, speed: float) -> str:
 
     One there-and-back of a driving slider is called a cycle.
     """
+    return speed_teller(scene)(speed)
+
+
+def speed_teller(scene: Scene) -> Callable[[float], str]:
+    """Return the function that puts input speeds (rad/s) of a scene into words."""
     if not scene.info.full_turn:
-        there_and_back = scene.linkage.drive.actuator.cycles
-        count = short(abs(speed) * _PER_RADIAN["rpm"])
-        swings = there_and_back == "swings"
-        return said("{count} swings/min", count=count) if swings else said("{count} cycles/min", count=count)
+        minutely = to_say("{count} cycles/min")
+        if scene.linkage.drive.actuator.cycles == "swings":
+            minutely = to_say("{count} swings/min")
+        return lambda speed: said(minutely, count=short(abs(speed) * _PER_RADIAN["rpm"]))
     unit = speed_unit(scene)
-    return f"{typeset(short(speed_in(unit, speed)))} {sign_of(unit)}"
+    sign = sign_of(unit)
+    return lambda speed: f"{typeset(short(speed_in(unit, speed)))} {sign}"
 
 
 # Axes of a chart: where values lie along them, and few ticks at round numbers.

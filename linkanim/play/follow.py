@@ -32,7 +32,6 @@ from linkanim.player.actions import play, with_scene
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.state import (
     Game,
-    Over,
     State,
     with_effect,
 )
@@ -314,11 +313,8 @@ class FollowRun(Game):
         """Whether the run came to the end of the paper, before its time was up."""
         return self.paper >= 1_000 * LENGTH
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the paper ahead of the ram."""
-        del over, recorded
         return (self._lane(state),)
 
     def panel(self, state: State) -> GamePanel:

@@ -31,7 +31,6 @@ from linkanim.player.action import Action
 from linkanim.player.actions import play, with_scene
 from linkanim.player.state import (
     Game,
-    Over,
     State,
     with_effect,
 )
@@ -473,11 +472,9 @@ class MatchGame(Game):
         """The joints that can be dragged."""
         return () if self.gave_up else self.free
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the curve."""
-        del state, over, recorded
+        del state
         return (CurveBehind(self.of_level.curve),)
 
     def panel(self, state: State) -> GamePanel:

@@ -23,7 +23,6 @@ from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, MOVING_BAR, BarEn
 from linkanim.player.making import Construction
 from linkanim.player.state import (
     Mode,
-    Over,
     Rule,
     State,
     with_toast,
@@ -119,11 +118,8 @@ class ToleranceBand(Mode):
         del before
         return after if after.scene is self.scene else after.without(ToleranceBand)
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the band, and the words on it."""
-        del over, recorded
         if state.scene is not self.scene:
             return ()
         tolerance, scene, by = _tolerance(self.scene), self.scene, _round(self.level)

@@ -76,7 +76,6 @@ from linkanim.player.state import (
     Editing,
     Grip,
     Mode,
-    Over,
     Resolver,
     Rule,
     State,
@@ -1032,13 +1031,10 @@ class OpenSheet(Mode):
         """Let go of a gesture, typed text, a choice, or a tool; else leave the sheet."""
         return let_go(state) or leave_sheet(state)
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the draft, or what the linkage does not show, words, and what is under the hand."""
         sheet, rests, is_listed = sheet_of(state), state.clock.paused, state.edits_dimensions
-        where = sheet, state.scene, state.phase, over
-        return (SheetDrawing(*where, is_listed=is_listed, is_recorded=recorded, rests=rests),)
+        return (SheetDrawing(sheet, state.scene, state.phase, is_listed=is_listed, rests=rests),)
 
     def tools(self, state: State) -> tuple[int, bool]:
         """Return the tool in hand; beside the list digits are values."""
@@ -1133,11 +1129,8 @@ class SheetNumbers(Dimensions):
         """Return the tool in hand on the sheet."""
         return OpenSheet().tools(state)
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the chosen dimension's lines."""
-        del over, recorded
         sheet = sheet_of(state)
         if sheet.building.made.listed is None or sheet.rowed:
             return ()

@@ -74,7 +74,7 @@ _BARE = (HOME_BAR._replace(rank=0), *_SCENE)
 
 
 class Button(NamedTuple):
-    """A command on the bar: its icon, its name and key, whether it is on, and why it cannot be done.
+    """A command on the bar: its icon, its English name and key, whether it is on, why it cannot be done.
 
     Where room is short, buttons of the highest `rank` are left out first. A button that `leads` begins a
     group. With a `share` (0 to 1) it is a slider, three times as wide. With `on_chart` it stands at the
@@ -143,7 +143,7 @@ def _button(state: State, handle: BarEntry, named: tuple[str, str]) -> Button:
     icon = _ICONS[handle.icon](state) if handle.icon in _ICONS else handle.icon
     on = action in _ON and _ON[action](state)
     reason = lack(state, action)
-    return Button(icon, said(name), key, handle.rank, handle.leads, on, reason, share, handle.on_chart)
+    return Button(icon, name, key, handle.rank, handle.leads, on, reason, share, handle.on_chart)
 
 
 @lru_cache(maxsize=32)

@@ -30,7 +30,6 @@ from linkanim.player.state import (
     Grasp,
     Held,
     Mode,
-    Over,
     Resolver,
     Rule,
     Sketch,
@@ -698,11 +697,8 @@ class Dimensions(Mode):
         del state
         return _MOVES, True
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the chosen dimension's lines."""
-        del over, recorded
         return in_marks(measured(state, dimensions(in_unit(state.scene, state.look.unit))))
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:

@@ -102,11 +102,12 @@ def departed(before: State, state: State) -> State:
     Another linkage, zoom or sheet is there at once.
     """
     departures = tuple(one for one in state.departures if not one.is_over(state.frame))
-    fades = state.faded == state.frame
-    was, now = framed(before).of_view, framed(state).of_view
+    fades, was, now = state.faded == state.frame, framed(before), framed(state)
+    if was == now and not (fades or state.departures):
+        return state
     if not _is_seen_as_one(before, state):
         departures = tuple(one for one in departures if one.fades)
-    elif was != now or before.listed != state.listed:
+    elif was.of_view != now.of_view or before.listed != state.listed:
         glides = state.glide if state.glide and state.glide.since == state.frame else None
         frames = glides.frames if glides else MOVE_FRAMES
         departures = (*departures, Departure(_bare(before), since=state.frame, frames=frames))

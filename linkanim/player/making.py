@@ -28,7 +28,6 @@ from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, BarEntry, KeyRow,
 from linkanim.player.state import (
     Held,
     Mode,
-    Over,
     Rule,
     State,
     cleared,
@@ -119,11 +118,8 @@ class Construction(Mode):
         """Return how many steps of a scene's construction it draws."""
         return self.steps if scene is self.scene else 0
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return a slider along the scene's family."""
-        del over, recorded
         slider = _slider(state)
         return (slider,) if slider else ()
 
@@ -331,15 +327,12 @@ class Layering(Mode, Addition):
         """Return the state with the linkage again."""
         return closed(state)
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the parts in layers, words about them, and a slider.
 
         In the frame in which another scene appears the layers are still those of the one before, and not
         shown.
         """
-        del over, recorded
         is_own = self.scene is state.scene
         parts, refused = (self.parts, self.refused) if is_own else (None, "")
         if parts is None:

@@ -15,9 +15,12 @@ from linkanim.build.gestures import under
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
-from linkanim.picture.drawn import Addition
+from linkanim.picture.drawn import Addition, Over
 from linkanim.picture.text import subscripted_words
-from linkanim.player.state import BuildSheet, Over, driven_bar
+from linkanim.player.state import (
+    BuildSheet,
+    driven_bar,
+)
 from linkanim.scenes.scene import Scene
 from linkanim.units import short, significant, typeset
 from linkanim.words import said
@@ -73,10 +76,14 @@ class SheetDrawing(Addition):
     sheet: BuildSheet
     scene: Scene
     phase: float
-    over: Over | None
     is_listed: bool
-    is_recorded: bool
     rests: bool
+    over: Over | None = None
+    is_recorded: bool = False
+
+    def seen(self, over: Over | None, *, recorded: bool) -> SheetDrawing:
+        """Return it with the mouse over a place of the sheet, or as a recording shows it."""
+        return replace(self, over=over, is_recorded=recorded)
 
     @property
     def alone(self) -> Literal["", "sheet"]:

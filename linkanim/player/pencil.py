@@ -47,7 +47,6 @@ from linkanim.player.state import (
     REACH,
     AnswerRow,
     Dial,
-    Over,
     PathSketch,
     Rule,
     State,
@@ -392,11 +391,9 @@ class Pencil(Sketching, PathSketch, Addition):
         """The stroke that a linkage follows."""
         return None if self.is_blank else self.curve
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the stroke and its cognates."""
-        del state, over, recorded
+        del state
         return (self,)
 
     def behind(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:

@@ -51,7 +51,6 @@ from linkanim.player.state import (
     PIVOTS,
     AnswerRow,
     Dial,
-    Over,
     PoseGrip,
     PoseSketch,
     Resolver,
@@ -559,11 +558,8 @@ class Posing(Sketching, PoseSketch, Addition):
         """It stands on a sheet as long as there is no linkage."""
         return "sheet" if self.is_blank else ""
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the poses, and words about them."""
-        del over, recorded
         return Head(*_said_of_poses(state, self), bool(self.refusal)), self
 
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:

@@ -198,6 +198,11 @@ class OpenShelf(Browsing, Mode):
         file = self.file_at(number)
         return (Action("shelf"), Action("open_file", file.name)) if file else (Action("put", number),)
 
+    @property
+    def is_live(self) -> bool:
+        """Its mechanisms run."""
+        return True
+
     def typing(self, state: State) -> bool:
         """Return whether the shelf is filtered."""
         del state

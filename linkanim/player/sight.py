@@ -6,12 +6,15 @@ from math import ceil, log10
 
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step
+from linkanim.picture.drawn import Over
 from linkanim.picture.items import Target
 from linkanim.picture.picture import Picture
 from linkanim.picture.poses import NEAR
 from linkanim.picture.view import Rect
 from linkanim.player.browsing import Browsing
-from linkanim.player.state import Over, State
+from linkanim.player.state import (
+    State,
+)
 from linkanim.scenes.editing import handles
 
 _PULLED = 6.0

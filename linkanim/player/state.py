@@ -49,7 +49,7 @@ from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_u
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import degrees
-from linkanim.words import said, spoken, to_say
+from linkanim.words import said, to_say
 
 if TYPE_CHECKING:
     from linkanim.picture.game_panel import GamePanel
@@ -422,8 +422,6 @@ class Rule(NamedTuple):
 
 Resolver = Callable[[Any, Value], Iterable[Action]]
 """What an action asks of a window with these contents, by its value."""
-Over = tuple[Point, float]
-"""The place of a sheet under the mouse, in its unit, and how near is on a thing."""
 
 
 class Dial(NamedTuple):
@@ -499,6 +497,11 @@ class Mode:
         return False
 
     @property
+    def is_live(self) -> bool:
+        """Whether small pictures of linkages run in it."""
+        return False
+
+    @property
     def title(self) -> str:
         """The title of its panel, where there are several; else empty."""
         return ""
@@ -535,11 +538,9 @@ class Mode:
         """The joints that can be dragged, where that is a matter of the mode."""
         return ()
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
-        """Return what it draws in the picture, where the mouse is `over` a place, or what is `recorded`."""
-        del state, over, recorded
+    def drawn(self, state: State) -> tuple[Addition, ...]:
+        """Return what it draws in the picture."""
+        del state
         return ()
 
     def panel(self, state: State) -> ListPanel | GamePanel | None:
@@ -628,6 +629,11 @@ class Sketch(Mode, ABC):
     def is_blank(self) -> bool:
         """Whether no linkage is shown yet for what is drawn."""
         return not self.answers
+
+    @property
+    def is_live(self) -> bool:
+        """Whether its answers run in a row."""
+        return not self.is_blank
 
     @property
     @abstractmethod
@@ -902,11 +908,8 @@ class Game(Mode, ABC):
         del state
         return ()
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the places of its answers, unless something else is open over it."""
-        del over, recorded
         spots = self.spots(state) if state.top is self else ()
         return (Spots(spots),) if spots else ()
 
@@ -1002,11 +1005,6 @@ class State:
     def shown(self) -> Scene:
         """The scene to draw: `scene`, or one on the way to it while a length is changing."""
         return self.glide.scene if isinstance(self.glide, Glide) else self.scene
-
-    @property
-    def speaks(self) -> str:
-        """The language of its words."""
-        return self.language or spoken()
 
     @property
     def displayed(self) -> Scene:

@@ -60,7 +60,7 @@ class TapeFrames:
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, which the next call overwrites."""
         state, phase = self._at(frame)
-        with speaking(state.speaks):
+        with speaking(state.language):
             return self._drawn(state, phase)
 
     def _drawn(self, state: State, phase: float) -> Frame:

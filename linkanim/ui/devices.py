@@ -37,32 +37,34 @@ def code(name: str) -> int:
 
 
 class Repeats:
-    """An action that repeats while something is held."""
+    """An action that repeats while a key, or a gamepad's button, is held: the one that went down last."""
 
     def __init__(self) -> None:
         self._action: Action | None = None
         self._next = 0
+        self._key: int | None = None
 
-    def begin(self, bind: Bind | None, frame: int) -> None:
-        """Begin to repeat a key's action, if it is one that repeats; else repeat nothing."""
+    def begin(self, bind: Bind | None, frame: int, key: int | None = None) -> None:
+        """Begin to repeat the action of a bind, if it is one that repeats; else repeat nothing."""
         self._action = bind.action if bind and bind.repeats else None
-        self._next = frame + _WAIT
+        self._next, self._key = frame + _WAIT, key
 
     def due(self, frame: int) -> tuple[Action, ...]:
-        """Return the action when it is due again."""
+        """Return the action when it is due again; none once its key is no longer held."""
         if self._action is None or frame < self._next:
+            return ()
+        if self._key is not None and not pygame.key.get_pressed()[self._key]:
+            self._action = None
             return ()
         self._next = frame + _EVERY
         return (self._action,)
 
 
 class Keyboard:
-    """Knows the bound keys by their names, which of them is being held, and since when."""
+    """Knows the bound keys by their names."""
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names = {code(name): name for name in names}
-        self._key: int = 0
-        self._repeats = Repeats()
 
     def press(self, event: Event) -> Press | None:
         """Return what a KEYDOWN means; None with Alt or the system's key, which the window does not use."""
@@ -72,19 +74,6 @@ class Keyboard:
         text = getattr(event, "unicode", "")
         shift, ctrl = bool(mod & pygame.KMOD_SHIFT), bool(mod & pygame.KMOD_CTRL)
         return Press(self._names.get(event.key, ""), text if text.isprintable() else "", shift, ctrl)
-
-    def hold(self, event: Event, bind: Bind | None, frame: int) -> None:
-        """Record the key that went down last."""
-        self._key = event.key
-        self._repeats.begin(bind, frame)
-
-    def repeated(self, frame: int) -> tuple[Action, ...]:
-        """Return the held key's action when it is due again."""
-        due = self._repeats.due(frame)
-        if due and not pygame.key.get_pressed()[self._key]:
-            self._repeats.begin(None, frame)
-            return ()
-        return due
 
 
 # Fingers as the mouse: the first one is its left button, two of them turn its wheel.
@@ -193,11 +182,10 @@ _HAT = {(0, 1): "up", (0, -1): "down", (-1, 0): "left", (1, 0): "right"}
 
 
 class Pads:
-    """Holds gamepads open, so that their events come, and knows the button that is held."""
+    """Holds gamepads open, so that their events come."""
 
     def __init__(self) -> None:
         self._opened: list[pygame.joystick.JoystickType] = []
-        self._repeats = Repeats()
         self._frames = _LOOKED_FOR_AFTER
 
     def look(self, frames: int) -> None:
@@ -206,8 +194,8 @@ class Pads:
             pygame.joystick.init()
         self._frames = max(self._frames - frames, 0)
 
-    def actions(self, event: Event, mode: ModeKeys, frame: int) -> tuple[Action, ...]:
-        """Return the actions of an event: those of the key for which a button stands."""
+    def bind(self, event: Event, mode: ModeKeys) -> Bind | None:
+        """Return the bind of the key for which a button stands; None for what is no button's going down."""
         key = ""
         if event.type == pygame.JOYDEVICEADDED:
             with suppress(pygame.error):  # pulled out before its event came
@@ -219,13 +207,7 @@ class Pads:
         if key == "space" and mode.name not in ("play", "paused"):
             key = "return"
         press = Press(key.removeprefix("shift+"), shift=key.startswith("shift+"))
-        bind = mode.bind_of(press) if key else None
-        self._repeats.begin(bind, frame)
-        return (bind.action,) if bind else ()
-
-    def repeated(self, frame: int) -> tuple[Action, ...]:
-        """Return the held button's action when it is due again."""
-        return self._repeats.due(frame)
+        return mode.bind_of(press) if key else None
 
 
 # The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value.
@@ -294,7 +276,7 @@ class Mouse:
         self.at = getattr(event, "pos", self.at)
         if kind == "down":
             self.begun, self.far, self._down_in = self.at, 0.0, screen.state.frame
-            self.draws = False
+            self.draws = self._is_long = False
         self.far = max(self.far, math.dist(self.begun, self.at))
         if kind == "up" and self._presses_long(screen):
             return self._pressed_long(screen)

@@ -53,12 +53,13 @@ _LEAST_FOOT = 9
 """The smallest text at the foot, in pixels."""
 
 
-def foot(board: Board, said: tuple[str, bool]) -> tuple[pygame.Surface, tuple[float, float]]:
+def foot(board: Board, said: tuple[str, str]) -> tuple[pygame.Surface, tuple[float, float]]:
     """Return words on a sheet, and its place: in the middle of the foot, with further lines above that.
 
-    Words that are an answer stand in ink, others are dim.
+    Words that are an "answer" stand in ink, others are dim; a "hint" is shortened to a line.
     """
-    (text, is_answer), layout, theme = said, board.layout, board.theme
+    layout, theme, is_answer = board.layout, board.theme, said[1] == "answer"
+    text = shortened(board, said[0]) if said[1] == "hint" else said[0]
     slot = layout.caption or layout.stage._replace(y=layout.stage.bottom - 2 * layout.small_size)
     room = slot.width - 2 * layout.margin
     for size in range(layout.small_size, _LEAST_FOOT - 1, -1):
@@ -77,25 +78,25 @@ def foot(board: Board, said: tuple[str, bool]) -> tuple[pygame.Surface, tuple[fl
 
 
 def words_at_foot(
-    board: Board, state: State, mouse: AtMouse = NOWHERE, shown: Shown = "window"
-) -> tuple[str, bool] | None:
-    """Return what is said at the foot, and whether it is an answer.
+    state: State, mouse: AtMouse = NOWHERE, shown: Shown = "window"
+) -> tuple[str, Literal["", "answer", "hint"]] | None:
+    """Return what is said at the foot, and whether it is an answer or a hint.
 
     The name of the command under the mouse comes first, then a toast, an answer to a key, and hints.
     """
     buttons = bar(state) if mouse.button is not None and shown == "window" else ()
     if mouse.button is not None and 0 <= mouse.button < len(buttons):
-        return _tip(buttons[mouse.button]), False
+        return _tip(buttons[mouse.button]), ""
     if toast := toast_of(state, shown):
-        return toast, True
+        return toast, "answer"
     if shown != "window":
         return None
     if chip := chip_of(state):
-        return chip, True
+        return chip, "answer"
     if lines := hover_words(state, mouse.pointed):
-        return _SEPARATOR.join(lines), False
+        return _SEPARATOR.join(lines), ""
     words = watched(state) or hint(state)
-    return (_shortened(board, words), False) if words else None
+    return (words, "hint") if words else None
 
 
 def toast_of(state: State, shown: Shown = "window") -> str | None:
@@ -126,11 +127,11 @@ def watched(state: State) -> str | None:
 
     Of these it is there until something is done.
     """
-    if state.game or state.is_covered or state.recording or state.toast:
-        return None
     gone = state.frame - (state.frame if state.arrived is None else state.arrived)
     is_new = 0 < gone < _WATCH_FRAMES and state.touched <= (state.arrived or 0)
-    return said(state.shown.look_at) if is_new or state.look.names else None
+    if not (is_new or state.look.names) or state.recording or state.toast:
+        return None
+    return None if state.game or state.is_covered else said(state.shown.look_at)
 
 
 def recorded_for(state: State) -> str | None:
@@ -155,18 +156,17 @@ def panel_of(state: State) -> ListPanel | GamePanel | None:
 
 def tools_of(state: State) -> tuple[int, bool] | None:
     """Return the number of the tool in hand, and whether the tools' keys need Ctrl; None without tools."""
-    if not (state.building or (state.top and state.top.has_tools)):
-        return None
-    return next((tools for one in reversed(state.modes) if (tools := one.tools(state))), None)
+    found = next((tools for one in reversed(state.modes) if (tools := one.tools(state))), None)
+    return found if found and (state.building or (state.top and state.top.has_tools)) else None
 
 
 def _tip(button: Button) -> str:
     """Return a command's name and key, and why it cannot be done."""
-    named = f"{button.name}   {button.key}".strip()
+    named = f"{said(button.name)}   {button.key}".strip()
     return f"{named}: {button.lack}" if button.lack else named
 
 
-def _shortened(board: Board, text: str) -> str:
+def shortened(board: Board, text: str) -> str:
     """Return words without their first parts where they would need more than a line."""
     parts, layout = text.split(" · "), board.layout
     room = (layout.caption or layout.stage).width - 4 * layout.margin
@@ -347,17 +347,18 @@ class Panels:
         listed = (panel, mouse.row if panel and state.listed else None)
         if isinstance(panel, GamePanel):
             self._list(board, listed, shut, sheets, targets)
-        if state.help:
+        helped = state.help
+        if helped:
             sheets.append(PanelSheet(self._keep(_veil, layout.size), (0, 0)))
         if isinstance(panel, ListPanel):
             self._list(board, listed, shut, sheets, targets)
-        if state.help:
+        if helped:
             left = self._width_at_left(board, self._keep(_drawn, listed)) if isinstance(panel, Panel) else 0
             self._helped(board, state.keys.help_groups, left, sheets, targets)
-        if words := words_at_foot(board, state, mouse, shown):
+        if words := words_at_foot(state, mouse, shown):
             drawn, (x, y) = self._keep(foot, words)
             sheets.append(PanelSheet(drawn, (round(x), round(y))))
-            if words == (toast_of(state, shown), True):
+            if words[1] and words[0] == toast_of(state, shown):
                 targets.append(Target("toast", Rect(x, y, *drawn.get_size())))
         tools = None if shown == "tape" or (shown == "screenshot" and not state.building) else tools_of(state)
         if tools:
@@ -369,9 +370,9 @@ class Panels:
         self, state: State, layout: Layout, mouse: AtMouse = NOWHERE
     ) -> tuple[list[PanelSheet], list[Target]]:
         """Return the sheets of the bar of commands, and the places of its buttons."""
-        buttons, eighths = bar(state), bar_eighths(state)
-        if not buttons:
+        if not (eighths := bar_eighths(state)):
             return [], []
+        buttons = bar(state)
         known = mouse.button is not None and mouse.button < len(buttons)  # else it is of another mode's bar
         theme = theme_of(state.look.theme)
         key = buttons, mouse.button if known else None, layout, theme
@@ -444,15 +445,17 @@ class Panels:
 
     def _marks(self, board: Board, state: State, shown: Shown) -> Iterator[PanelSheet]:
         """Yield the marks at the right end of the foot: a pause, a recording, how far off a curve is."""
-        size, place, theme = board.layout.small_size, board.layout.marks, board.theme
-        right, top = place.right, place.middle.imag - 0.6 * size
-        off = next((sign for one in reversed(state.modes) if (sign := one.sign)), None)
+        theme, off = board.theme, next((sign for one in reversed(state.modes) if (sign := one.sign)), None)
         signs = [self._keep(_sign, theme.ink)] if is_marked_paused(state) and shown != "tape" else []
         signs += [
             self._keep(_mark, (sign, words, colour), sign)
             for sign, words, colour in ((_dot, recorded_for(state), theme.warning), (_wave, off, theme.ink))
             if words
         ]
+        if not signs:
+            return
+        size, place = board.layout.small_size, board.layout.marks
+        right, top = place.right, place.middle.imag - 0.6 * size
         for sheet in signs:
             yield PanelSheet(sheet, (round(right - sheet.get_width()), round(top)))
             right -= sheet.get_width() + 0.6 * size
@@ -460,7 +463,7 @@ class Panels:
 
 def sliding(state: State) -> tuple[ListPanel | GamePanel | None, float]:
     """Return the list that is open, opens or shuts, and the share of it that is beyond the window's edge."""
-    moves = moves_of(state)
+    moves = moves_of(state) if state.departures else []
     if not moves:
         return panel_of(state), 0.0
     listed = [float(one.listed) for one in (*(move.left for move in moves), state)]

@@ -79,13 +79,14 @@ class Framing:
 
 def beside(state: State, mouse: AtMouse = NOWHERE) -> Additions:
     """Return what the window shows beside the scene."""
-    held = state.held or state.grasp
-    joints = state.displayed.linkage.by_name
+    held, pointed, marks = state.held or state.grasp, mouse.pointed, list[Addition]()
     lit = held.joint if held else mouse.joint
-    pointed = mouse.pointed
-    thing = pointed.thing.name if pointed and pointed.thing and pointed.thing.kind == "joint" else ""
-    marks: list[Addition] = [Glow(lit)] if lit in joints else []
-    marks += [HoverArrows(thing)] if thing in joints else []
+    if lit and lit in state.shown.linkage.by_name:
+        marks.append(Glow(lit))
+    if pointed and pointed.thing and pointed.thing.kind == "joint":
+        marks += (
+            [HoverArrows(pointed.thing.name)] if pointed.thing.name in state.shown.linkage.by_name else []
+        )
     return Additions(
         (*_of_modes(state, mouse), *marks),
         state.constructed,
@@ -113,11 +114,12 @@ def recorded(state: State, *, photo: bool = False) -> Additions:
 
 
 def _of_modes(state: State, mouse: AtMouse = NOWHERE, *, recorded: bool = False) -> tuple[Addition, ...]:
-    return tuple(one for mode in state.modes for one in mode.drawn(state, mouse.over, recorded=recorded))
+    return tuple(one.seen(mouse.over, recorded=recorded) for mode in state.modes for one in mode.drawn(state))
 
 
 def _photo(state: State) -> Photo | None:
-    return state.building.building.draft.photo if state.building else None
+    sheet = state.sheet and state.building
+    return sheet.building.draft.photo if sheet else None
 
 
 def swing(state: State) -> tuple[Scene, float] | None:

@@ -12,12 +12,15 @@ import numpy as np
 
 from linkanim.mechanics.linkage import Damper, Point, Spring
 from linkanim.mechanics.motion import Pose, Strut
+from linkanim.picture.drawn import Over
 from linkanim.picture.figure import Figure
 from linkanim.picture.hud import charted, rows
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.shapes import hull
 from linkanim.player.action import Action
-from linkanim.player.state import Over, State
+from linkanim.player.state import (
+    State,
+)
 from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits
 from linkanim.words import name_said, said, said_as

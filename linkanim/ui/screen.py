@@ -26,8 +26,9 @@ from linkanim.picture.layout import Docked, layout
 from linkanim.picture.picture import Picture
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
+from linkanim.player.browsing import Browsing
 from linkanim.player.sight import Sight, shelf_of
-from linkanim.player.state import State
+from linkanim.player.state import Mode, State
 from linkanim.ui.command_bar import share_at
 from linkanim.ui.command_icons import window_icon
 from linkanim.ui.panels import Panels, PanelSheet, Shown
@@ -255,7 +256,7 @@ class Screen(Sight):
         super().__init__(state)
         self.mouse = NOWHERE
         self._shown: object = None
-        self._titled: str | None = None
+        self._titled: object = None
         self._shelf = ShelfPrinter()
         self._printer = SurfacePrinter()
         self._framing = Framing(window=True)
@@ -267,34 +268,36 @@ class Screen(Sight):
         """Paint the state into the window and flip, where it differs from what is shown."""
         surface = display_surface()
         self.state, self.mouse = state, mouse
-        self._point(state)
-        on_sheet = state.building and state.building.building.made.scene is None
-        title = said(UNTITLED if on_sheet else state.scene.title)
-        if state.place in state.edited and not on_sheet:
-            title = said("{title} • edited", title=title)
-        self._name(title)
-        picture = self._framing.at(state, surface.get_size())
-        aside, fades = beside(state, mouse), fading(state)
-        sheets, targets = self._over(picture, state, mouse)
-        live = state.frame if shelf_of(state) or answers_of(state) else None
-        shown = (picture, state.phase, state.clock.speed, aside, sheets, fades, shutter(state), live)
+        shelf, phase, top = self.shelf, state.phase, state.top
+        self._point(state, top)
+        self._name(state)
+        picture, drawn = self._framing.at(state, surface.get_size()), beside(state, mouse)
+        sheets, targets = self._over(picture, state, shelf, mouse)
+        fades, flashes = fading(state), shutter(state)
+        moves = state.frame if any(one.is_live for one in state.modes) else phase
+        shown = (picture, moves, state.clock.speed, drawn, sheets, fades, flashes)
         if shown != self._shown:
             old = self._veil(*fades) if fades and fades[1] else None
             self.last = picture
-            self._targets = self._paint(surface, picture, state, aside, sheets) + tuple(targets)
+            self._targets = self._paint(surface, picture, state, shelf, drawn, sheets) + tuple(targets)
             if old:
                 surface.blit(old, (0, 0))
-            if shutter(state):
-                flash(surface, shutter(state))
+            if flashes:
+                flash(surface, flashes)
             pygame.display.flip()
             self._shown = shown
 
     def _over(
-        self, picture: Picture, state: State, mouse: AtMouse = NOWHERE, shown: Shown = "window"
+        self,
+        picture: Picture,
+        state: State,
+        shelf: Browsing | None,
+        mouse: AtMouse = NOWHERE,
+        shown: Shown = "window",
     ) -> tuple[list[PanelSheet], list[Target]]:
         """Return the sheets over the picture or the shelf, and where they can be clicked."""
         sheets, targets, place = list[PanelSheet](), list[Target](), picture.layout
-        if shelf_of(state):
+        if shelf:
             place = layout(self.size, docked=Docked(bar=True))
         else:
             sheets, targets = self._panels.drawn(state, place, picture.theme, mouse, shown)
@@ -308,11 +311,12 @@ class Screen(Sight):
         surface: pygame.Surface,
         picture: Picture,
         state: State,
+        shelf: Browsing | None,
         drawn: Additions,
         sheets: Sequence[PanelSheet],
     ) -> tuple[Target, ...]:
         """Paint a state's picture or shelf, and the sheets over it; return where the picture is clicked."""
-        shelf, theme = shelf_of(state), state.look.theme
+        theme = state.look.theme
         if shelf:
             still, edited = state.clock.paused, state.edited if shelf.has_new else frozenset[int]()
             frame = state.frame - shelf.since
@@ -334,19 +338,22 @@ class Screen(Sight):
         self._faded[1].set_alpha(opacity)
         return self._faded[1]
 
-    def _point(self, state: State) -> None:
+    def _point(self, state: State, top: Mode | None) -> None:
         """Show the mouse's pointer as a pencil while the pencil is taken."""
-        pointer = (state.look.theme, self.size) if state.top and state.top.pointer else None
+        pointer = (state.look.theme, self.size) if top and top.pointer else None
         if pointer != self._pointer:
             self._pointer = pointer
             drawn = pencil(layout(self.size), theme_of(state.look.theme)) if pointer else None
             point_with(drawn)
 
-    def _name(self, title: str) -> None:
+    def _name(self, state: State) -> None:
         """Show the scene's title as the window's; the system is asked only where it changes."""
-        if title != self._titled:
-            name(title)
-            self._titled = title
+        sheet = state.building
+        titled = UNTITLED if sheet and sheet.building.made.scene is None else state.scene.title
+        known = titled, titled != UNTITLED and state.place in state.edited, state.language
+        if known != self._titled:
+            self._titled, title = known, said(titled)
+            name(said("{title} • edited", title=title) if known[1] else title)
 
     def uncovered(self) -> None:
         """Record that the window has to be painted anew."""
@@ -356,8 +363,9 @@ class Screen(Sight):
         """Return what does not come and go of a state on a surface of its own, as large as the window."""
         surface = display_surface().copy()
         picture = self._framing.at(state, surface.get_size())
-        sheets, _ = self._over(picture, state, shown="screenshot")
-        self._paint(surface, picture, state, lasting(state), sheets)
+        shelf = shelf_of(state)
+        sheets, _ = self._over(picture, state, shelf, shown="screenshot")
+        self._paint(surface, picture, state, shelf, lasting(state), sheets)
         return surface
 
     @property

@@ -39,7 +39,7 @@ from linkanim.scenes.files import is_lesson, opened, path_of
 from linkanim.scenes.scene import Scene
 from linkanim.ui import screen
 from linkanim.ui.desktop import reduces_motion
-from linkanim.ui.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
+from linkanim.ui.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, Repeats, latest
 from linkanim.ui.pointing import NOWHERE
 from linkanim.ui.screen import Screen
 from linkanim.words import said, speaking, to_say
@@ -118,6 +118,7 @@ class Window:
         )
         self._notes: list[str] = []
         self._photo: str | None = None
+        self._repeats = Repeats()
         self._windowed = screen.frame()
         self._open = True
         self._now = state.frame
@@ -141,10 +142,10 @@ class Window:
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
         self._now = self.state.frame + frames
-        with speaking(self.state.speaks):
+        with speaking(self.state.language):
             for frame in range(frames):
                 self._advance(events if frame == 0 else [])
-        with speaking(self.state.speaks):
+        with speaking(self.state.language):
             if self._good and self._good.language != self.state.language:
                 self.screen = Screen(self.state)  # whatever it keeps is in the language before
             self._show()
@@ -189,21 +190,25 @@ class Window:
 
     def _requested(self, events: list[Event]) -> Iterator[Action]:
         """Yield the frame's actions: from the tape, from events, from a held key, and from work outside."""
-        yield from self._of_the_tape()
-        yield from self._followed()
-        yield from self._layered()
+        if self._tape:
+            yield from self._of_the_tape(self._tape)
+        if self._following:
+            yield from self._followed(self._following)
+        if self._layering:
+            yield from self._layered(self._layering)
         if self._begun:
             words, self._begun = self._begun, ""
             yield Action("play", words)
-        drawing = self.state.drawing is not None and self.state.drawing.pen
-        for event in events if drawing else latest(events):
+        if events and not (self.state.drawing and self.state.drawing.pen):
+            events = latest(events)
+        for event in events:
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
                 yield from self.resolved(action)
-        for action in self._mouse.long_press(self.screen) if self._good else ():
+        for action in self._mouse.long_press(self.screen) if self._mouse.drag else ():
             yield from self._off_the_tape(action)
             yield from self.resolved(action)
-        for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
+        for action in self._repeats.due(self.state.frame):
             yield from self.resolved(action)
         yield from self._news()
 
@@ -245,21 +250,21 @@ class Window:
         """Return the action that shows the lesson's step so many steps further on, or a note."""
         return self._lesson.on(further)
 
-    def _followed(self) -> Iterator[Action]:
+    def _followed(self, following: Following) -> Iterator[Action]:
         """Yield the actions with which the search for linkages has replied."""
-        if self._following is None or (self.state.sketch and self.state.sketch.coming):
+        if self.state.sketch and self.state.sketch.coming:
             return
         if self.state.posing and self.state.scene is not self.screen.state.scene:
             return  # this frame draws the new linkage; the next linkage is worked out in the next frame
         from linkanim.player.background import actions_of
 
-        for reply in self._following.replies():
+        for reply in following.replies():
             yield from actions_of(reply, self.state.sketch)
 
-    def _layered(self) -> Iterator[Action]:
+    def _layered(self, making: Making) -> Iterator[Action]:
         """Yield the action with the layers that the state waits for, once they are found."""
-        making, shown = self._layering, self.state.of(Layering)
-        if making and making.done:
+        if making.done:
+            shown = self.state.of(Layering)
             if shown and shown.scene is making.scene:
                 yield Action("layered", making.result())
             making.close()
@@ -293,11 +298,10 @@ class Window:
         if request:
             self._following.ask(request)
 
-    def _of_the_tape(self) -> Iterator[Action]:
+    def _of_the_tape(self, tape: Tape) -> Iterator[Action]:
         """Yield the tape's actions at this frame, without effects on the outside."""
-        if self._tape:
-            yield from self._tape.at(self.state.frame)
-            self.state = replace(self.state, effects=())
+        yield from tape.at(self.state.frame)
+        self.state = replace(self.state, effects=())
 
     def _off_the_tape(self, action: Action) -> Iterator[Action]:
         """Leave the tape where an action changes something."""
@@ -324,7 +328,12 @@ class Window:
         """Return, as notes, the news from outside, and how far recordings are."""
         if self.state.frame % FRAMES_PER_SECOND == 0:
             self._keep_draft()
-        notes, self._notes = self._notes + self._photo_news(), []
+        notes, self._notes = self._notes, []
+        sheet = self.state.sheet and self.state.building
+        photo = sheet.building.draft.photo if sheet else None
+        if (file := photo.file if photo else None) != self._photo:
+            self._photo = file
+            notes += filter(None, [file and lack(file)])
         sources = ((self._keeper, 1), (self._file, FRAMES_PER_SECOND), (self._renderings, _NEWS_EVERY))
         for source, every in sources:
             notes += source.news() if source and self.state.frame % every == 0 else ()
@@ -333,13 +342,6 @@ class Window:
             self._making.close()
             self._making = None
         return tuple(Action("note", text) for text in notes)
-
-    def _photo_news(self) -> list[str]:
-        """Return why a new photograph is left out, if it is."""
-        photo = self.state.building and self.state.building.building.draft.photo
-        before, self._photo = self._photo, photo.file if photo else None
-        sentence = lack(self._photo) if self._photo and self._photo != before else None
-        return [sentence] if sentence else []
 
     @contextmanager
     def _noting(self) -> Iterator[None]:
@@ -545,13 +547,13 @@ class Window:
             # before the first picture there is nothing under the mouse
             return self._mouse.actions(event, self.screen) if self._good else ()
         if event.type in PAD_EVENTS:
-            return self._pads.actions(event, self.state.keys, self._now)
-        if event.type != pygame.KEYDOWN:
+            bind, key = self._pads.bind(event, self.state.keys), None
+        elif event.type == pygame.KEYDOWN:
+            press, on, key = self._keyboard.press(event), self.state, event.key
+            bind = on.keys.bind_of(press, typing=on.typing, valued=on.valued) if press else None
+        else:
             return ()
-        press = self._keyboard.press(event)
-        on = self.state
-        bind = on.keys.bind_of(press, typing=on.typing, valued=on.valued) if press else None
-        self._keyboard.hold(event, bind, self._now)
+        self._repeats.begin(bind, self._now, key)
         return (bind.action,) if bind else ()
 
 

@@ -68,5 +68,5 @@ def test_what_was_said_in_the_language_before_goes() -> None:
     assert state.toast
     assert state.chip
     state = carried(state, Action("language", "zh_CN"))
-    assert (state.toast, state.chip, state.speaks) == (None, None, "zh_CN")
+    assert (state.toast, state.chip, state.language) == (None, None, "zh_CN")
     assert spoken() == "en"

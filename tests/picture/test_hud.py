@@ -10,7 +10,7 @@ import pytest
 from pictures import inked
 
 from linkanim.mechanics.forces import input_effort
-from linkanim.picture.hud import Hud, Reading, columns, note, rows, widest_rows
+from linkanim.picture.hud import Hud, Reading, columns, note, rows, special_places, widest_rows
 from linkanim.picture.items import Group
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
@@ -156,7 +156,8 @@ def test_names_and_values_never_touch_at_any_speed(name: str, size: tuple[int, i
             for row in (row for row in rows(scene, pose) if row.label in block.rows):
                 words = type_.width(row.label, block.size) + type_.width(row.value, block.size, strong=True)
                 assert words <= place.width - 0.5 * block.size
-            told = type_.wrapped(note(scene, pose), block.size, place.width) if block.rows else ()
+            words_near = note([*special_places(scene)], pose) if block.rows else ""
+            told = type_.wrapped(words_near, block.size, place.width) if words_near else ()
             assert block.note + 1.2 * block.size * len(told) <= block.key + 1e-9
 
 
@@ -238,7 +239,7 @@ def test_a_swing_tells_how_often_it_does_and_its_angular_velocity(speed: str) ->
 )
 def test_limits_and_change_points_are_told_where_they_are_near(name: str, phase: float, told: str) -> None:
     scene = load(name)
-    assert note(scene, scene.pose(phase, speed=0.5)) == told
+    assert note([*special_places(scene)], scene.pose(phase, speed=0.5)) == told
 
 
 @pytest.mark.parametrize(("speed", "seen"), [(1.0, True), (0.1, True), (10.0, False), (-1.0, True)])
@@ -248,7 +249,8 @@ def test_a_note_stands_long_enough_to_be_read(name: str, speed: float, seen: boo
     scene = load(name)
     rate = speed * scene.linkage.drive.speed
     frames = range(round(60 * scene.period / abs(rate)))
-    told = [note(scene, scene.pose(rate * frame / 60, speed=rate)) for frame in frames]
+    special = [*special_places(scene)]
+    told = [note(special, scene.pose(rate * frame / 60, speed=rate)) for frame in frames]
     first = next((n for n, words in enumerate(told) if words != told[-1]), 0)
     runs = [(words, len([*run])) for words, run in groupby(told[first:] + told[:first])]
     assert any(words for words, _ in runs) == seen

@@ -26,7 +26,7 @@ from linkanim.picture.view import Rect
 from linkanim.player.commands import bar
 from linkanim.player.state import RunningRecording, Toast, begin, with_toast
 from linkanim.scenes import load
-from linkanim.ui.panels import foot, hint, words_at_foot
+from linkanim.ui.panels import foot, hint, shortened, words_at_foot
 from linkanim.ui.pointing import AtMouse
 
 SIZE = (640, 360)
@@ -89,41 +89,40 @@ def test_what_is_said_in_passing_stands_in_the_caption_s_slot_alone(
     assert not slot.meets(shown.layout.stage)
 
 
-def test_of_all_that_could_be_said_the_most_pressing_is(painter: Picture) -> None:
-    board = Board(painter.layout, Type(), LIGHT)
+def test_of_all_that_could_be_said_the_most_pressing_is() -> None:
     state = replace(begin("crank-rocker"), frame=460)
-    hints, _ = words_at_foot(board, state) or ("", True)
+    hints, _ = words_at_foot(state) or ("", "")
     assert hints.endswith("H keys")
     state = replace(state, look=Look(names=1))
-    assert words_at_foot(board, state) == (state.scene.look_at, False)
+    assert words_at_foot(state) == (state.scene.look_at, "hint")
     state = replace(state, chip=Toast("25 rpm", 500))
-    assert words_at_foot(board, state) == ("25 rpm", True)
+    assert words_at_foot(state) == ("25 rpm", "answer")
     state = replace(with_toast(state, "`written`"), last_mouse_move=460)
-    assert words_at_foot(board, state) == ("written", True)
-    names = [words_at_foot(board, state, AtMouse(button=n)) for n in range(len(bar(state)))]
-    assert ("play / pause   Space", False) in names
+    assert words_at_foot(state) == ("written", "answer")
+    names = [words_at_foot(state, AtMouse(button=n)) for n in range(len(bar(state)))]
+    assert ("play / pause   Space", "") in names
     lacking = next(n for n, one in enumerate(bar(state)) if one.lack)
-    words, is_answer = words_at_foot(board, state, AtMouse(button=lacking)) or ("", True)
+    words, kind = words_at_foot(state, AtMouse(button=lacking)) or ("", "answer")
     assert words.endswith(f": {bar(state)[lacking].lack}")
-    assert not is_answer
-    assert words_at_foot(board, replace(begin("crank-rocker"), chip=Toast("25 rpm", 0))) is None
+    assert kind == ""
+    assert words_at_foot(replace(begin("crank-rocker"), chip=Toast("25 rpm", 0))) is None
 
 
 def test_hints_that_have_no_room_in_a_line_lose_their_first_parts() -> None:
     board = Board(layout((320, 180), docked=Docked(bar=True)), Type(), LIGHT)
     state = replace(begin("crank-rocker"), frame=460)
-    told, whole = words_at_foot(board, state), hint(state)
-    assert told
+    whole = hint(state)
     assert whole
-    assert whole.endswith(told[0].replace("   ·   ", " · "))
-    assert "H keys" in told[0]
-    assert "Space" not in told[0]
+    told = shortened(board, whole)
+    assert whole.endswith(told.replace("   ·   ", " · "))
+    assert "H keys" in told
+    assert "Space" not in told
 
 
 @pytest.mark.parametrize("count", [1, 16, 40])
 def test_words_at_the_foot_are_whole_and_in_the_window(count: int) -> None:
     board = Board(layout((480, 270), docked=Docked(bar=True)), Type(), LIGHT)
-    sheet, (x, y) = foot(board, ("a few words " * count, True))
+    sheet, (x, y) = foot(board, ("a few words " * count, "answer"))
     assert x >= 0
     assert x + sheet.get_width() <= 480
     assert y > 0.6 * 270

@@ -11,16 +11,12 @@ import pytest
 from playing import SIZE, Player
 from shown_lists import lines_in
 
-from linkanim.picture.board import Board
 from linkanim.picture.drawn import Additions
-from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.marks import DimensionLine, Glow, MeasuredLines
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text import letters
-from linkanim.picture.theme import LIGHT
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import CHIP_FRAMES, MOVE_FRAMES, SHUTTER_FRAMES, State, begin
@@ -167,9 +163,8 @@ def test_there_is_no_strip_over_anything_else(rocker: State, quiet: str | Action
 
 def test_nothing_that_comes_and_goes_is_on_a_screenshot(rocker: State) -> None:
     state = after(rocker, "direction", "screenshot", Action("note", "told"))
-    board = Board(layout(SIZE), letters(), LIGHT)
-    assert words_at_foot(board, state)
-    assert words_at_foot(board, state, shown="screenshot") is None
+    assert words_at_foot(state)
+    assert words_at_foot(state, shown="screenshot") is None
 
 
 def test_a_screenshots_shutter_flashes_and_goes(rocker: State) -> None:

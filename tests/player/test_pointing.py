@@ -12,7 +12,6 @@ import pygame
 import pytest
 from playing import Player, menu_in
 
-from linkanim.picture.board import Board
 from linkanim.picture.figure import figure
 from linkanim.picture.hover import HoverArrows
 from linkanim.picture.layout import Docked
@@ -151,8 +150,8 @@ def test_a_joint_has_its_two_arrows_and_its_words_stand_at_the_foot(joint: str, 
     for layer in arrows.layers:
         away = np.abs(np.concatenate(layer.loops) - picture.view.pixel(place))
         assert away.min() < 3 * picture.gauge.line
-    board, state = Board(picture.layout, picture.type, picture.theme), replace(state, chip=None)
-    words, _ = words_at_foot(board, state, at_joint) or ("", False)
+    state = replace(state, chip=None)
+    words, _ = words_at_foot(state, at_joint) or ("", "")
     assert words.split("   ·   ") == [*hover_words(state, at_joint.pointed)]
 
 
