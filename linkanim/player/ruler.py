@@ -20,7 +20,7 @@ from linkanim.picture.text import subscripted
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.keys import BACK_BAR, HOME_BAR, LAST_BAR, MOVING_BAR, KeyRow, ModeKeys
-from linkanim.player.state import NEAR_HAND, Mode, Over, Rule, State
+from linkanim.player.state import NEAR_HAND, Mode, Rule, State
 from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits
 from linkanim.words import said, to_say
@@ -81,11 +81,8 @@ class Ruler(Mode):
         known = {end for end in self.ends if isinstance(end, str)} <= after.scene.linkage.by_name.keys()
         return after if known and after.scene.name == self.scene.name else after.without(Ruler)
 
-    def drawn(
-        self, state: State, over: Over | None = None, *, recorded: bool = False
-    ) -> tuple[Addition, ...]:
+    def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the ruler, and at the head its length and direction."""
-        del over, recorded
         places, unit = _places(state), state.displayed.length_unit
         laid = [places[end] if isinstance(end, str) else end for end in self.ends]
         if len(laid) < 2:
