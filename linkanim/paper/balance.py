@@ -83,13 +83,12 @@ class BalanceChart(DrawnPage):
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
-        pen, theme = self.pen, self.pen.theme
-        whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
-        yield Caption(self.title, (whole.x, whole.y), pen.text, theme.ink, strong=True)
-        high = (whole.height - 1.4 * pen.text) / 2
+        title, below = self.headed()
+        yield title
+        high = below.height / 2
         curves = [(one.force, one.moment) for one in self.both]
         for n, (name, unit) in enumerate(_STRIPS):
-            strip = Rect(whole.x, whole.y + 1.4 * pen.text + n * high, whole.width, high)
+            strip = Rect(below.x, below.y + n * high, below.width, high)
             values = [curve[n] for curve in curves]
             yield from self._strip(
                 strip,

@@ -6,23 +6,22 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
-from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.illustration import DrawnPage
 from linkanim.picture.chart import Plot, axes, curve_layer, dot, line_layer, plot_area, x_title
 from linkanim.picture.constructed import clear_phase, linkage_marks, steps_of, title_of, usual_kind
 from linkanim.picture.construction import box_of, construction_items, view_of
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import ConstructionKind
-from linkanim.picture.quantities import driven_words, linear, range_around
+from linkanim.picture.quantities import input_at, linear, range_around
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import segments
 from linkanim.picture.text import unspaced
-from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.constructions import ConstructionStep
 from linkanim.synthesis.generation import FEWEST_POINTS, Generated
@@ -72,34 +71,22 @@ class ConstructionPage(DrawnPage):
         """What it shows, in words."""
         if self._kind != "centres":
             return title_of(self.scene, self._kind)
-        coordinate = self.scene.pose(self._phase, 0).coordinate
-        value = coordinate % math.tau if self.scene.info.full_turn else coordinate
-        where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
+        where = input_at(self.scene, self.scene.pose(self._phase, 0).coordinate)
         return said("{title} at {place}", title=title_of(self.scene, self._kind), place=where)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front; a step has the same place however many are shown."""
         pen = self.pen
-        whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
-        shown = self.every[: self.steps]
-        lines = [
-            line
-            for n, step in enumerate(self.every, 1)
-            for line in self._wrapped(f"{n}  {step.words}", whole.width)
-        ]
-        below = len(lines) * _LINE * pen.small
-        area = Rect(whole.x, whole.y + 1.6 * pen.text, whole.width, whole.height - 1.6 * pen.text - below)
+        title, room = self.headed(1.6)
+        told = [self._wrapped(f"{n}  {step.words}", room.width) for n, step in enumerate(self.every, 1)]
+        area = room._replace(height=room.height - sum(map(len, told)) * _LINE * pen.small)
         marks = [mark for step in self.every for mark in step.marks]
         view = view_of(box_of(marks), area)
-        yield from construction_items([mark for step in shown for mark in step.marks], view, area, pen)
-        yield Caption(self.title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
-        told = [
-            line
-            for n, step in enumerate(shown, 1)
-            for line in self._wrapped(f"{n}  {step.words}", whole.width)
-        ]
-        for n, line in enumerate(told):
-            yield Caption(line, (whole.x, area.bottom + n * _LINE * pen.small), pen.small, pen.theme.ink)
+        shown = [mark for step in self.every[: self.steps] for mark in step.marks]
+        yield from construction_items(shown, view, area, pen)
+        yield title
+        for n, line in enumerate(chain.from_iterable(told[: self.steps])):
+            yield Caption(line, (room.x, area.bottom + n * _LINE * pen.small), pen.small, pen.theme.ink)
 
     def _wrapped(self, text: str, width: float) -> list[str]:
         """Return a sentence in lines no wider than the page."""
@@ -158,9 +145,8 @@ class ErrorChart(DrawnPage):
         unit = 10.0**power
         x, errors = self.curve
         function = self.shown.task.function
-        whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
-        yield Caption(self.title, (whole.x, whole.y), pen.text, theme.ink, strong=True)
-        below = whole._replace(y=whole.y + 1.4 * pen.text, height=whole.height - 1.4 * pen.text)
+        title, below = self.headed()
+        yield title
         y_axis = linear(*range_around(errors / unit, _ROOM), most=7)
         area = plot_area(below, y_axis, pen, foot=True)
         most = max(min(round(area.width / (5 * pen.small)), 12), 2)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cached_property
-from math import tau
 
 import pygame
 
 from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
-from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.pdf import pages, require_pdf
 from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
@@ -21,7 +19,7 @@ from linkanim.picture.items import Group
 from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.quantities import driven_words
+from linkanim.picture.quantities import input_at
 from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.stills import still_phase
 from linkanim.picture.surface import SurfacePrinter
@@ -70,10 +68,7 @@ class Figured:
     @property
     def caption(self) -> str:
         """Where the input is, within one turn: θ₂ = 87.0°."""
-        symbol, value = input_symbol(self.scene.linkage), self.scene.pose(self.shown_phase, 0).coordinate
-        if self.scene.info.full_turn:
-            value %= tau
-        return f"{symbol} = {driven_words(self.scene, value)}"
+        return input_at(self.scene, self.scene.pose(self.shown_phase, 0).coordinate)
 
     @cached_property
     def picture(self) -> Picture:

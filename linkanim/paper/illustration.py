@@ -21,6 +21,7 @@ from linkanim.picture.shapes import disc
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type, letters
 from linkanim.picture.theme import on_paper, theme_of
+from linkanim.picture.view import Rect
 
 
 def page_pen(size: tuple[int, int], theme: ThemeName, type_scale: float = 1.0, *, ground: bool = True) -> Pen:
@@ -60,9 +61,22 @@ class DrawnPage(ABC):
         return self.pen.theme.background if self.ground else None
 
     @property
+    @abstractmethod
+    def title(self) -> str:
+        """What it shows, in words."""
+
+    @property
     def words(self) -> str:
         """What is seen in it beside its title; nothing, where a kind of page does not say."""
         return ""
+
+    def headed(self, lines: float = 1.4) -> tuple[Caption, Rect]:
+        """Return the title at the head, `lines` heights of its text, and the room below it."""
+        pen = self.pen
+        whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
+        title = Caption(self.title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
+        high = lines * pen.text
+        return title, whole._replace(y=whole.y + high, height=whole.height - high)
 
     @abstractmethod
     def items(self) -> Iterator[Item]:

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from linkanim.errors import BadInput
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
-from linkanim.mechanics.quantities import Quantity, input_symbol
+from linkanim.mechanics.quantities import Quantity
 from linkanim.paper.curves import Pace
 from linkanim.paper.illustration import DrawnPage, LegendEntry
 from linkanim.picture.chart import Plot, axes, dot, line_layer, x_title
 from linkanim.picture.items import Caption, Halo, Item
-from linkanim.picture.quantities import Axis, driven_words, linear, quantity, range_around
+from linkanim.picture.quantities import Axis, input_at, linear, quantity, range_around, turned_words
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, segments
 from linkanim.picture.view import Rect
@@ -124,12 +124,11 @@ class PolarPage(DrawnPage):
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
         pen, theme = self.pen, self.pen.theme
-        whole, unit = Rect(0, 0, *self.size).inset(1.2 * pen.small), self.scene.length_unit
-        yield Caption(self.title, (whole.x, whole.y), pen.text, theme.ink, strong=True)
-        below = whole._replace(y=whole.y + 1.6 * pen.text, height=whole.height - 1.6 * pen.text)
+        title, below = self.headed(1.6)
+        yield title
         plot = self._plot(below)
         yield from axes(plot, pen)
-        across, up = (part.headed(unit) for part in self.known[1:])
+        across, up = (part.headed(self.scene.length_unit) for part in self.known[1:])
         yield x_title(plot, across, pen)
         yield Caption(up, (plot.area.x, plot.area.y - 1.4 * pen.small), pen.small, theme.ink)
         if plot.x.low < 0.0 < plot.x.high:
@@ -198,8 +197,7 @@ class PolarPage(DrawnPage):
             across = 1j * complex(places[(k + 1) % len(places)] - places[k - 1])
             away = across.real * (at - middle).real + across.imag * (at - middle).imag
             way = math.copysign(1.0, away) * across / abs(across) if across and np.isfinite(across) else 1.0
-            value = float(coordinate[k]) % math.tau if self.scene.info.full_turn else float(coordinate[k])
-            words = driven_words(self.scene, value).replace(".0°", "°")
+            words = turned_words(self.scene, float(coordinate[k])).replace(".0°", "°")
             wide = pen.type.width(words, pen.small)
             spot = at + way * (0.9 * pen.small) + complex(way.real * wide / 2, 0.0)
             halo = Halo(pen.theme.background, 0.2 * pen.small)
@@ -218,12 +216,10 @@ class PolarPage(DrawnPage):
         k = int(sizes.argmax())
         motion = head.pace.motion(self.scene, self.phases[k : k + 1])
         place = float(np.asarray(motion.coordinate)[0])
-        value = place % math.tau if self.scene.info.full_turn else place
         unit = self.known[0].display_unit(self.scene.length_unit)
-        where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
         largest = float(sizes[k])
         shown = f"{stepped(largest, largest / 2000)} {unit}"
-        return k, said("greatest {value} at {place}", value=shown, place=where)
+        return k, said("greatest {value} at {place}", value=shown, place=input_at(self.scene, place))
 
     def _size_words(self, plot: Plot, below: Rect) -> Iterator[Item]:
         """Yield below the diagram how large the vector gets, at each speed."""

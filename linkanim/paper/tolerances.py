@@ -13,7 +13,6 @@ from linkanim.paper.illustration import DrawnPage, LegendEntry, legend
 from linkanim.picture.chart import Plot, axes, curve_layer, dot, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.quantities import linear
-from linkanim.picture.view import Rect
 from linkanim.scenes.deviation import Off, Tolerance
 from linkanim.units import significant
 from linkanim.words import name_said, said, sentences
@@ -84,9 +83,8 @@ class ToleranceChart(DrawnPage):
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
         pen, theme, off = self.pen, self.pen.theme, self.off
-        whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
-        yield Caption(self.title, (whole.x, whole.y), pen.text, theme.ink, strong=True)
-        below = whole._replace(y=whole.y + 1.4 * pen.text, height=whole.height - 1.4 * pen.text)
+        title, below = self.headed()
+        yield title
         phases = np.append(np.degrees(off.phases), math.degrees(self.shown.scene.period))
         bound = self._scale * np.append(off.bound, off.bound[0])
         alone = self._scale * np.column_stack([off.alone, off.alone[:, 0]])

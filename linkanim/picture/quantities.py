@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from math import ceil, degrees, floor, log10, pi, radians
+from math import ceil, degrees, floor, log10, pi, radians, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -112,6 +112,16 @@ def driven_words(scene: Scene, value: float) -> str:
     """Return where the input is, in words: its angle, 87.0°, or a driving slider's travel, 12.5 mm."""
     coordinate = scene.linkage.drive.coordinate
     return coordinate.text(value, scene.length_unit, 0.1 if coordinate.is_angle else scene.length_step)
+
+
+def turned_words(scene: Scene, value: float) -> str:
+    """Return where the input is, in words; an angle within one turn."""
+    return driven_words(scene, value % tau if scene.info.full_turn else value)
+
+
+def input_at(scene: Scene, value: float) -> str:
+    """Return where the input is with its symbol, an angle within one turn: θ₂ = 87.0°."""
+    return f"{input_symbol(scene.linkage)} = {turned_words(scene, value)}"
 
 
 def driven_name(scene: Scene) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from html import escape
-from math import tau
 from random import Random
 
 from linkanim.errors import BadInput, WorkFailed
@@ -18,7 +17,7 @@ from linkanim.picture.drawn import Additions
 from linkanim.picture.frame_words import lines_of
 from linkanim.picture.look import Look
 from linkanim.picture.marks import Spot, Spots
-from linkanim.picture.quantities import driven_words, speed_words
+from linkanim.picture.quantities import speed_words, turned_words
 from linkanim.picture.raster import Layer, offscreen, paint, png_bytes
 from linkanim.picture.shapes import stroke
 from linkanim.play.kinds import KINDS
@@ -161,12 +160,11 @@ def pose_words(question: QuizQuestion) -> str:
         running = (
             said("{speed} counterclockwise", speed=speed) if forth else said("{speed} clockwise", speed=speed)
         )
-    at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
     return said(
         "{title}, {link} at {place}, {speed}",
         title=said(scene.title),
         link=scene.info.input_said,
-        place=driven_words(scene, at),
+        place=turned_words(scene, pose.coordinate),
         speed=running,
     )
 

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from math import tau
 from typing import ClassVar
 
 from linkanim.frozen import frozen
 from linkanim.picture.lists import Quantities
-from linkanim.picture.quantities import driven_words, quantity
+from linkanim.picture.quantities import quantity, turned_words
 from linkanim.player import rules
 from linkanim.player.action import Action
 from linkanim.player.browsing import searched
@@ -97,8 +96,7 @@ def _facts(scene: Scene) -> Iterator[ListRow]:
         yield _row(name, words, to, "fact least" if label == "transmission angle" else "fact")
     ends = info.swing.dead_centres if info.swing else info.dead_centres
     for n, phase in enumerate(ends or (), start=1):
-        place = scene.pose(phase, 0).coordinate
-        where = driven_words(scene, place % tau if info.full_turn else place)
+        where = turned_words(scene, scene.pose(phase, 0).coordinate)
         yield _row(
             said("dead centre {number} of {link}", number=n, link=name_said(info.output_name)),
             where,
