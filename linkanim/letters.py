@@ -49,6 +49,14 @@ class Setting(NamedTuple):
     way_out: str
     instead: str = f"{STAND_IN} stands for them: "
 
+    def sentence(self, letters: str) -> str:
+        """Return the sentence that names lacking letters, and the way out; "" where there are none."""
+        if not letters:
+            return ""
+        named, more = ", ".join(letters[:_MOST_NAMED]), len(letters) - _MOST_NAMED
+        those = f"{named} and {more} more" if more > 0 else named
+        return f"{self.lacks} the letters {those}; {self.instead}{self.way_out}"
+
 
 PIXELS = Setting("no font of this system has", "install one that has them, such as Noto Sans")
 UNJOINED = Setting("plain pygame does not join", "install pygame-ce in its place")
@@ -59,12 +67,3 @@ LATEX = Setting(
     "run xelatex or lualatex, with the package ctex for Chinese, Japanese or Korean, and fontspec for others",
     "they are kept: ",
 )
-
-
-def sentence_of(letters: str, by: Setting) -> str:
-    """Return the sentence that names letters that are lacking, and the way out; "" where there are none."""
-    if not letters:
-        return ""
-    named, more = ", ".join(letters[:_MOST_NAMED]), len(letters) - _MOST_NAMED
-    those = f"{named} and {more} more" if more > 0 else named
-    return f"{by.lacks} the letters {those}; {by.instead}{by.way_out}"

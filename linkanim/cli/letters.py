@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from linkanim.letters import LATEX, PDF, PIXELS, UNJOINED, Setting, lacking, sentence_of
+from linkanim.letters import LATEX, PDF, PIXELS, UNJOINED, Setting, lacking
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def tell(words: str, by: Setting) -> None:
             there = "".join(char for char in words if fonts.has(char))
             missing[by if by is not PIXELS else UNJOINED] = lacking(there, lambda char: not script_of(char))
     for setting, letters in missing.items():
-        if sentence := sentence_of(letters, setting):
+        if sentence := setting.sentence(letters):
             print(sentence, file=sys.stderr)
 
 

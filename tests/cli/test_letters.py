@@ -14,7 +14,7 @@ from fontTools.ttLib import TTFont
 
 from linkanim.cli import main
 from linkanim.explain.formula import latex_has
-from linkanim.letters import LATEX, PDF, lacking, sentence_of, spelt
+from linkanim.letters import LATEX, PDF, lacking, spelt
 from linkanim.paper.pdf import pdf
 from linkanim.paper.svg import svg
 from linkanim.picture import text
@@ -115,9 +115,9 @@ def test_a_letter_is_set_spelt_or_stood_for(char: str, is_set: str) -> None:
 
 
 def test_a_long_list_of_letters_is_cut_and_an_empty_one_is_no_sentence() -> None:
-    assert sentence_of("", PDF) == ""
+    assert PDF.sentence("") == ""
     many = "".join(chr(0x4E00 + n) for n in range(40))
-    said = sentence_of(many, LATEX)
+    said = LATEX.sentence(many)
     assert said.startswith("LaTeX's standard fonts lack the letters 一, 丁, ")
     assert " and 28 more; they are kept: run xelatex" in said
     assert lacking("aéθ曲", latex_has) == "曲"
