@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from linkanim.frozen import frozen
 from linkanim.mechanics.centres import blocks
 from linkanim.mechanics.groups import group_of
-from linkanim.mechanics.linkage import RPR, Body, Brace, Damper, Linkage, Spring, holding
+from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import Look
@@ -181,7 +181,8 @@ class Figure:
     def lettered(self) -> tuple[str, ...]:
         """The joints in view with a letter; the end of a slot that is called as its link is has none."""
         links = {body.name for body in self.bodies}
-        ends = {joint.name for joint in self.linkage.joints if isinstance(joint, RPR) and joint.name in links}
+        slotted = ((joint.name, bar) for joint in self.linkage.joints for _, bar in joint.slotted)
+        ends = {name for name, bar in slotted if name in links and bar[1:] == (name,)}
         return tuple(name for name in self.in_view if name not in ends)
 
     @cached_property
