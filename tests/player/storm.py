@@ -229,7 +229,7 @@ class Storm:
         places = list(window.state.shown.pose(window.state.phase, 0).position.values())
         try:
             x, y = window.screen.pixel(*random.choice(places))
-        except AssertionError:  # nothing is painted yet
+        except AttributeError:  # nothing is painted yet
             return 0, 0
         inside = abs(x) < 1e5 and abs(y) < 1e5
         return (round(x), round(y)) if inside else (0, 0)
