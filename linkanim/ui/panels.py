@@ -53,13 +53,13 @@ _LEAST_FOOT = 9
 """The smallest text at the foot, in pixels."""
 
 
-def foot(board: Board, said: tuple[str, str]) -> tuple[pygame.Surface, tuple[float, float]]:
+def foot(board: Board, words: tuple[str, str]) -> tuple[pygame.Surface, tuple[float, float]]:
     """Return words on a sheet, and its place: in the middle of the foot, with further lines above that.
 
     Words that are an "answer" stand in ink, others are dim; a "hint" is shortened to a line.
     """
-    layout, theme, is_answer = board.layout, board.theme, said[1] == "answer"
-    text = shortened(board, said[0]) if said[1] == "hint" else said[0]
+    (text, kind), layout, theme = words, board.layout, board.theme
+    is_answer, text = kind == "answer", shortened(board, text) if kind == "hint" else text
     slot = layout.caption or layout.stage._replace(y=layout.stage.bottom - 2 * layout.small_size)
     room = slot.width - 2 * layout.margin
     for size in range(layout.small_size, _LEAST_FOOT - 1, -1):
