@@ -143,11 +143,6 @@ def recorded_for(state: State) -> str | None:
     return said("REC {format} {time}", format=state.recording.format.upper(), time=time)
 
 
-def is_marked_paused(state: State) -> bool:
-    """Tell whether the mark of a pause is shown: not of a motion that a hand drags, nor on a sheet."""
-    return stands(state) and not (state.game or state.building)
-
-
 def panel_of(state: State) -> ListPanel | GamePanel | None:
     """Return the open list."""
     panels = (one.panel(state) for one in reversed(state.modes))
@@ -446,7 +441,7 @@ class Panels:
     def _marks(self, board: Board, state: State, shown: Shown) -> Iterator[PanelSheet]:
         """Yield the marks at the right end of the foot: a pause, a recording, how far off a curve is."""
         theme, off = board.theme, next((sign for one in reversed(state.modes) if (sign := one.sign)), None)
-        signs = [self._keep(_sign, theme.ink)] if is_marked_paused(state) and shown != "tape" else []
+        signs = [self._keep(_sign, theme.ink)] if stands(state) and shown != "tape" else []
         signs += [
             self._keep(_mark, (sign, words, colour), sign)
             for sign, words, colour in ((_dot, recorded_for(state), theme.warning), (_wave, off, theme.ink))

@@ -93,7 +93,7 @@ def beside(state: State, mouse: AtMouse = NOWHERE) -> Additions:
         swing(state),
         pointed.instant if pointed else None,
         grip=state.look.chart is not None and not state.game,
-        stands=stands(state) and not (state.game or state.building),
+        stands=stands(state),
         photo=_photo(state),
     )
 
@@ -101,8 +101,7 @@ def beside(state: State, mouse: AtMouse = NOWHERE) -> Additions:
 def lasting(state: State) -> Additions:
     """Return what belongs on a screenshot beside the scene: all that does not come and go."""
     drawn = tuple(one for one in _of_modes(state) if not isinstance(one, MeasuredLines))
-    stood = stands(state) and not (state.game or state.building)
-    return Additions(drawn, state.constructed, stands=stood, photo=_photo(state))
+    return Additions(drawn, state.constructed, stands=stands(state), photo=_photo(state))
 
 
 def recorded(state: State, *, photo: bool = False) -> Additions:
@@ -129,8 +128,9 @@ def swing(state: State) -> tuple[Scene, float] | None:
 
 
 def stands(state: State) -> bool:
-    """Return whether the motion is paused, and not merely dragged by a hand."""
-    return state.clock.paused and not (state.grasp and state.grasp.ran)
+    """Tell whether a mechanism is paused: not in a hand that drags it, in a game, or on a sheet."""
+    in_hand = state.grasp and state.grasp.ran
+    return state.clock.paused and not (in_hand or state.game or state.building)
 
 
 # From one picture to the next: the old one fades while the new one is already there; the shutter's flash.

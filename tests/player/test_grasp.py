@@ -19,7 +19,7 @@ from linkanim.player.clock import COAST_FRAMES, FRAMES_PER_SECOND
 from linkanim.player.state import Grasp, State, begin
 from linkanim.scenes import load
 from linkanim.ui import screen
-from linkanim.ui.panels import is_marked_paused
+from linkanim.ui.pictures import stands
 
 
 def after(state: State, *actions: Action | str) -> State:
@@ -153,7 +153,7 @@ def test_in_the_window_a_coupler_point_is_dragged_by_the_mouse(player: Player) -
         player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(1, 0, 0))
     assert player.state.grasp
     assert lit_in(player.state) == "P"
-    assert not is_marked_paused(player.state)
+    assert not stands(player.state)
     now = player.window.screen.pixel(*place(player.state, "P"))
     assert math.dist(now, others[-1]) < 2.0
     player.mouse(pygame.MOUSEBUTTONUP, others[-1], button=1)
