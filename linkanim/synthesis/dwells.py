@@ -94,6 +94,69 @@ class _Arc(NamedTuple):
         """Return the coupler point (n,) when the crank has turned by angles from the start."""
         return np.asarray(FOUR_BAR.points(self.row[None], np.ones(1), self.start + turned[None])[0])
 
+    def levelled(self, points: Complex) -> _Arc:
+        """Return the arc with its largest distance from points small, by Lawson's weights (1961)."""
+        weights, best = np.ones(len(points)), (math.inf, self)
+        for _ in range(_WEIGHED):
+            root = np.sqrt(weights)[:, None]
+            sides = np.stack([2 * points.real, 2 * points.imag, np.ones(len(points))], axis=1)
+            a, b, _ = np.linalg.lstsq(root * sides, root[:, 0] * np.abs(points) ** 2)[0].tolist()
+            away = np.abs(points - complex(a, b))
+            radius = float(away.min() + away.max()) / 2
+            off = np.abs(away - radius)
+            best = min(
+                best,
+                (float(off.max()), self._replace(centre=complex(a, b), radius=radius)),
+                key=lambda one: one[0],
+            )
+            weights = weights * off / off.mean()
+        return best[1]
+
+    def rows(self, kind: LinkageKind, ways: Complex, arms: Real) -> Real:
+        """Return dyads (k, p) by the parameters of their kind, of which those of a crank are 0."""
+        rows = np.zeros((len(ways), len(kind.parameters)))
+        rows[:, 3] = self.radius
+        if kind is FOUR_BAR:
+            pivots = self.centre + arms * ways
+            rows[:, 6:] = np.stack([pivots.real, pivots.imag, arms], axis=1)
+        else:
+            rows[:, 6:] = np.stack([np.angle(ways), (self.centre / ways).imag], axis=1)
+        return rows
+
+    def closures(self, kind: LinkageKind, rows: Real) -> Real:
+        """Return the closures of dyads (k, p) at rest."""
+        rod = self.centre - complex(self.path(np.zeros(1))[0])
+        if kind is FOUR_BAR:
+            towards = rows[:, 6] + 1j * rows[:, 7] - self.centre + rod
+            return np.where((np.conj(towards) * rod).imag > 0, 1.0, -1.0)
+        return np.where((rod * np.exp(-1j * rows[:, 6])).real > 0, 1.0, -1.0)
+
+    def moved(self, kind: LinkageKind, rows: Real, path: Complex) -> tuple[Real, Real]:
+        """Return the outputs' ways (k, n) from their places at rest, and cos μ; NaN where none closes."""
+        closed = kind.close(
+            rows, self.closures(kind, rows)[:, None], np.broadcast_to(path, (len(rows), path.shape[1]))
+        )
+        direction, normal, _ = closed
+        cosine = (np.conj(direction) * normal).real / np.abs(normal)
+        if kind is FOUR_BAR:
+            rest = self.centre - (rows[:, 6:7] + 1j * rows[:, 7:8])
+            return np.angle(normal / rest), cosine
+        ends = path + self.radius * direction - self.centre
+        return (ends * np.exp(-1j * rows[:, 6:7])).real, cosine
+
+    def sliders(self) -> Iterator[_Dyad]:
+        """Yield sliders along lines in all directions."""
+        return (_Dyad(self, SLIDER_CRANK, complex(way), 0.0) for way in np.exp(1j * _AROUND))
+
+    def rockers(self, path: Complex, swing: float) -> Iterator[_Dyad]:
+        """Yield rockers with pivots in all directions, of two lengths: one swings further, one less."""
+        straight = float(np.abs(np.abs(path - self.centre) - self.radius).max()) / (2 * math.sin(swing / 2))
+        ways, arms = np.exp(1j * _AROUND), straight * _ARMS
+        rows = self.rows(FOUR_BAR, np.repeat(ways, len(arms)), np.tile(arms, len(ways)))
+        whole = np.ptp(self.moved(FOUR_BAR, rows, path[None])[0], axis=1).reshape(len(ways), len(arms))
+        for way, n in np.argwhere((whole[:, :-1] >= swing) & (whole[:, 1:] < swing)):
+            yield _Dyad(self, FOUR_BAR, complex(ways[way]), float(arms[n]), float(arms[n + 1]))
+
 
 class _Dyad(NamedTuple):
     """A rod from an arc's coupler point to an output whose pin stands at the arc's centre at rest.
@@ -111,17 +174,17 @@ class _Dyad(NamedTuple):
     @property
     def row(self) -> Real:
         """The rod and the output by the parameters of their kind, of which those of a crank are 0."""
-        return np.asarray(_rows(self.arc, self.kind, np.array([self.way]), np.array([self.arm]))[0])
+        return np.asarray(self.arc.rows(self.kind, np.array([self.way]), np.array([self.arm]))[0])
 
     @property
     def closure(self) -> float:
         """The closure at rest, at which it stays."""
-        return float(_closures(self.arc, self.kind, self.row[None])[0])
+        return float(self.arc.closures(self.kind, self.row[None])[0])
 
     def output(self, turned: Real) -> Real:
         """Return how far the output is from its place at rest (n,): an angle (rad), or a length."""
         path = self.arc.path(turned)[None]
-        return np.asarray(_moved(self.arc, self.kind, self.row[None], path)[0][0])
+        return np.asarray(self.arc.moved(self.kind, self.row[None], path)[0][0])
 
     def range(self) -> tuple[float, float]:
         """Return the least and the greatest of that over the turn."""
@@ -132,40 +195,108 @@ class _Dyad(NamedTuple):
         least, most = self.output(np.array([low, high])).tolist()
         return least, most
 
+    def met(self, swing: float) -> _Dyad:
+        """Return a rocker between its two lengths that swings as asked for."""
 
-def _rows(arc: _Arc, kind: LinkageKind, ways: Complex, arms: Real) -> Real:
-    """Return dyads (k, p) by the parameters of their kind, of which those of a crank are 0."""
-    rows = np.zeros((len(ways), len(kind.parameters)))
-    rows[:, 3] = arc.radius
-    if kind is FOUR_BAR:
-        pivots = arc.centre + arms * ways
-        rows[:, 6:] = np.stack([pivots.real, pivots.imag, arms], axis=1)
-    else:
-        rows[:, 6:] = np.stack([np.angle(ways), (arc.centre / ways).imag], axis=1)
-    return rows
+        def off(arm: float) -> float:
+            low, high = self._replace(arm=arm).range()
+            return high - low - swing
 
+        low, high = self.arm, self.longer
+        over, under = off(low), off(high)
+        for _ in range(_ROUNDS):
+            # false position, with the weight of an end that stays halved (Illinois)
+            arm = (low * under - high * over) / (under - over)
+            value = off(arm)
+            if abs(value) <= _EXACT or high - low <= _EXACT * high:
+                break
+            if value > 0:
+                low, over, under = arm, value, under / 2
+            else:
+                high, under, over = arm, value, over / 2
+        return self._replace(arm=arm)
 
-def _closures(arc: _Arc, kind: LinkageKind, rows: Real) -> Real:
-    """Return the closures of dyads (k, p) at rest."""
-    rod = arc.centre - complex(arc.path(np.zeros(1))[0])
-    if kind is FOUR_BAR:
-        towards = rows[:, 6] + 1j * rows[:, 7] - arc.centre + rod
-        return np.where((np.conj(towards) * rod).imag > 0, 1.0, -1.0)
-    return np.where((rod * np.exp(-1j * rows[:, 6])).real > 0, 1.0, -1.0)
+    def made(
+        self, rest: float, swing: float | None, stroke: float | None, stated: Mapping[str, str], name: str
+    ) -> Dwell | None:
+        """Return the six-bar as the solver runs it; None where that refuses it."""
+        low, high = self.range()
+        if not math.isfinite(high - low):
+            return None
+        own = FOUR_BAR.link_lengths(self.arc.row[None])[0]
+        longest = max(float(own.max()), self.arc.radius, self.arm)
+        scale = LONGEST / longest if stroke is None else stroke / (high - low)
+        document, parameters = self._document(scale, stated, rest)
+        try:
+            scene = scene_from(document, name=name, where=name)
+        except (AssemblyError, SceneError):
+            return None
+        if not scene.info.full_turn:
+            return None
+        start = scene.linkage.drive.start
+        sliding = swing is None
 
+        def output(turned: Real) -> Real:
+            motion = scene.solve(angle=start + turned, derivatives=0)
+            return np.asarray(motion.travel["slider"] if sliding else np.unwrap(motion.angle["output"]))
 
-def _moved(arc: _Arc, kind: LinkageKind, rows: Real, path: Complex) -> tuple[Real, Real]:
-    """Return the outputs' ways (k, n) from their places at rest, and cos μ; NaN where dyads do not close."""
-    closed = kind.close(
-        rows, _closures(arc, kind, rows)[:, None], np.broadcast_to(path, (len(rows), path.shape[1]))
-    )
-    direction, normal, _ = closed
-    cosine = (np.conj(direction) * normal).real / np.abs(normal)
-    if kind is FOUR_BAR:
-        rest = arc.centre - (rows[:, 6:7] + 1j * rows[:, 7:8])
-        return np.angle(normal / rest), cosine
-    ends = path + arc.radius * direction - arc.centre
-    return (ends * np.exp(-1j * rows[:, 6:7])).real, cosine
+        rested = output(np.linspace(0.0, rest, _LOOKED_AT))
+        turned = output(np.linspace(0.0, math.tau, 2 * _LOOKED_AT))
+        known = scene.info.transmission
+        assert known is not None
+        angle = known.least
+        whole = (high - low) * (scale if sliding else 1.0)
+        if not abs(np.ptp(turned) - whole) <= _SEEN * whole:
+            return None
+        deviation = float(np.ptp(rested) / 2)
+        curve = self.arc.path(np.linspace(0.0, math.tau, _LOOKED_AT))
+        size = (
+            longest / float(np.abs(curve - curve.mean()).max())
+            if stroke is None
+            else longest * scale / stroke
+        )
+        return Dwell(
+            scene=scene,
+            kind="slider" if sliding else "rocker",
+            parameters=parameters,
+            rest=rest,
+            deviation=deviation,
+            output=whole,
+            transmission_angle=angle,
+            size=longest * scale,
+            figures=Figures(deviation / whole, size, size, angle),
+        )
+
+    def _document(
+        self, scale: float, stated: Mapping[str, str], rest: float
+    ) -> tuple[dict[str, Any], dict[str, float]]:
+        """Return a six-bar's document, and its parameters by name."""
+        arc, places = self.arc, _DIGITS - math.floor(math.log10(scale * self.arc.radius))
+        row = [round(float(value), places) + 0.0 for value in arc.row * scale]
+        whole = parameters_of(FOUR_BAR, row)
+        document = FOUR_BAR.document(whole, 1.0)
+        side = self.kind.sides[self.closure < 0]
+        rod = round(arc.radius * scale, places)
+        if self.kind is FOUR_BAR:
+            x, y, arm = (round(float(value), places) + 0.0 for value in self.row[6:] * scale)
+            document["ground"]["O6"] = [x, y]
+            document["joints"]["D"] = {"from": ["P", "O6"], "length": [rod, arm], "side": side}
+            output: dict[str, Any] = {"output": {"joints": ["O6", "D"]}}
+            more = {"x6": x, "y6": y, "rod": rod, "output": arm}
+        else:
+            angle, offset = float(self.row[6]), round(float(self.row[7]) * scale, places) + 0.0
+            line = {"through": "O2", "angle": f"{angle!r} rad", "offset": offset}
+            document["joints"]["D"] = {"from": "P", "length": rod, "line": line, "side": side}
+            output = {"slider": {"slider": "D"}}
+            more = {"rod": rod, "line_angle": angle, "offset": offset}
+        return {
+            "title": f"Six-bar that rests for {math.degrees(rest):.4g}°",
+            **stated,
+            "drive": {"joint": "A", "speed": "20 rpm", "start": f"{math.degrees(arc.start) % 360!r} deg"},
+            **document,
+            "bodies": {**document["bodies"], "rod": {"joints": ["P", "D"]}, **output},
+            "trace": {"joints": ["P", "D"]},
+        }, whole | more
 
 
 def dwell(
@@ -205,7 +336,8 @@ def dwell(
     dyads = sorted(_dyads(rest, swing, least_angle), key=lambda pair: pair[0])
     answers = list[Dwell]()
     for _, dyad in dyads[: _MORE * count]:
-        one = _made(dyad, rest, swing, stroke, stated, name)
+        met = dyad if swing is None else dyad.met(swing)
+        one = met.made(rest, swing, stroke, stated, name)
         if (
             one
             and one.transmission_angle >= least_angle
@@ -276,25 +408,6 @@ def _circles(points: Complex, wide: int) -> tuple[Complex, Real, Real]:
         return np.asarray((a + 1j * b) / 2), radius, np.sqrt(variance) / (2 * radius)
 
 
-def _levelled(arc: _Arc, points: Complex) -> _Arc:
-    """Return an arc whose circle has its largest distance from points small, by Lawson's weights (1961)."""
-    weights, best = np.ones(len(points)), (math.inf, arc)
-    for _ in range(_WEIGHED):
-        root = np.sqrt(weights)[:, None]
-        sides = np.stack([2 * points.real, 2 * points.imag, np.ones(len(points))], axis=1)
-        a, b, _ = np.linalg.lstsq(root * sides, root[:, 0] * np.abs(points) ** 2)[0].tolist()
-        away = np.abs(points - complex(a, b))
-        radius = float(away.min() + away.max()) / 2
-        off = np.abs(away - radius)
-        best = min(
-            best,
-            (float(off.max()), arc._replace(centre=complex(a, b), radius=radius)),
-            key=lambda one: one[0],
-        )
-        weights = weights * off / off.mean()
-    return best[1]
-
-
 def _dyads(rest: float, swing: float | None, least_angle: float) -> Iterator[tuple[float, _Dyad]]:
     """Yield dyads on the best arcs, a few of each, with the cost of their figures, as some poses tell it."""
     turned = np.concatenate(
@@ -302,13 +415,13 @@ def _dyads(rest: float, swing: float | None, least_angle: float) -> Iterator[tup
     )
     for _, rough in sorted(_arcs(rest, least_angle), key=lambda pair: pair[0])[:_ARCS]:
         path = rough.path(turned)
-        arc = _levelled(rough, path[:_RESTING])
-        dyads = [*(_sliders(arc) if swing is None else _rockers(arc, path, swing))]
+        arc = rough.levelled(path[:_RESTING])
+        dyads = [*(arc.sliders() if swing is None else arc.rockers(path, swing))]
         if not dyads:
             continue
         kind = dyads[0].kind
         rows = np.array([dyad.row for dyad in dyads])
-        output, cosine = _moved(arc, kind, rows, path[None])
+        output, cosine = arc.moved(kind, rows, path[None])
         whole, rested = np.ptp(output, axis=1), np.ptp(output[:, :_RESTING], axis=1) / 2
         with np.errstate(invalid="ignore"):
             angle = np.arccos(np.abs(cosine).max(axis=1))
@@ -319,121 +432,3 @@ def _dyads(rest: float, swing: float | None, least_angle: float) -> Iterator[tup
         figures = [Figures(rested[n] / whole[n], size[n], size[n], angle[n]) for n in sound]
         costs = [(cost(one), n) for one, n in zip(figures, sound, strict=True)]
         yield from ((value, dyads[n]) for value, n in sorted(costs)[:_KEPT])
-
-
-def _sliders(arc: _Arc) -> Iterator[_Dyad]:
-    """Yield sliders along lines in all directions."""
-    return (_Dyad(arc, SLIDER_CRANK, complex(way), 0.0) for way in np.exp(1j * _AROUND))
-
-
-def _rockers(arc: _Arc, path: Complex, swing: float) -> Iterator[_Dyad]:
-    """Yield rockers with pivots in all directions, of two lengths: one swings further, one less."""
-    straight = float(np.abs(np.abs(path - arc.centre) - arc.radius).max()) / (2 * math.sin(swing / 2))
-    ways, arms = np.exp(1j * _AROUND), straight * _ARMS
-    rows = _rows(arc, FOUR_BAR, np.repeat(ways, len(arms)), np.tile(arms, len(ways)))
-    whole = np.ptp(_moved(arc, FOUR_BAR, rows, path[None])[0], axis=1).reshape(len(ways), len(arms))
-    for way, n in np.argwhere((whole[:, :-1] >= swing) & (whole[:, 1:] < swing)):
-        yield _Dyad(arc, FOUR_BAR, complex(ways[way]), float(arms[n]), float(arms[n + 1]))
-
-
-def _met(dyad: _Dyad, swing: float) -> _Dyad:
-    """Return a rocker between its two lengths that swings as asked for."""
-
-    def off(arm: float) -> float:
-        low, high = dyad._replace(arm=arm).range()
-        return high - low - swing
-
-    low, high = dyad.arm, dyad.longer
-    over, under = off(low), off(high)
-    for _ in range(_ROUNDS):
-        # false position, with the weight of an end that stays halved (Illinois)
-        arm = (low * under - high * over) / (under - over)
-        value = off(arm)
-        if abs(value) <= _EXACT or high - low <= _EXACT * high:
-            break
-        if value > 0:
-            low, over, under = arm, value, under / 2
-        else:
-            high, under, over = arm, value, over / 2
-    return dyad._replace(arm=arm)
-
-
-def _made(
-    dyad: _Dyad, rest: float, swing: float | None, stroke: float | None, stated: Mapping[str, str], name: str
-) -> Dwell | None:
-    """Return a six-bar as the solver runs it; None where that refuses it."""
-    dyad = dyad if swing is None else _met(dyad, swing)
-    low, high = dyad.range()
-    if not math.isfinite(high - low):
-        return None
-    own = FOUR_BAR.link_lengths(dyad.arc.row[None])[0]
-    longest = max(float(own.max()), dyad.arc.radius, dyad.arm)
-    scale = LONGEST / longest if stroke is None else stroke / (high - low)
-    document, parameters = _document(dyad, scale, stated, rest)
-    try:
-        scene = scene_from(document, name=name, where=name)
-    except (AssemblyError, SceneError):
-        return None
-    if not scene.info.full_turn:
-        return None
-    start = scene.linkage.drive.start
-    sliding = swing is None
-
-    def output(turned: Real) -> Real:
-        motion = scene.solve(angle=start + turned, derivatives=0)
-        return np.asarray(motion.travel["slider"] if sliding else np.unwrap(motion.angle["output"]))
-
-    rested = output(np.linspace(0.0, rest, _LOOKED_AT))
-    turned = output(np.linspace(0.0, math.tau, 2 * _LOOKED_AT))
-    known = scene.info.transmission
-    assert known is not None
-    angle = known.least
-    whole = (high - low) * (scale if sliding else 1.0)
-    if not abs(np.ptp(turned) - whole) <= _SEEN * whole:
-        return None
-    deviation = float(np.ptp(rested) / 2)
-    curve = dyad.arc.path(np.linspace(0.0, math.tau, _LOOKED_AT))
-    size = longest / float(np.abs(curve - curve.mean()).max()) if stroke is None else longest * scale / stroke
-    return Dwell(
-        scene=scene,
-        kind="slider" if sliding else "rocker",
-        parameters=parameters,
-        rest=rest,
-        deviation=deviation,
-        output=whole,
-        transmission_angle=angle,
-        size=longest * scale,
-        figures=Figures(deviation / whole, size, size, angle),
-    )
-
-
-def _document(
-    dyad: _Dyad, scale: float, stated: Mapping[str, str], rest: float
-) -> tuple[dict[str, Any], dict[str, float]]:
-    """Return a six-bar's document, and its parameters by name."""
-    arc, places = dyad.arc, _DIGITS - math.floor(math.log10(scale * dyad.arc.radius))
-    row = [round(float(value), places) + 0.0 for value in arc.row * scale]
-    whole = parameters_of(FOUR_BAR, row)
-    document = FOUR_BAR.document(whole, 1.0)
-    side = dyad.kind.sides[dyad.closure < 0]
-    rod = round(arc.radius * scale, places)
-    if dyad.kind is FOUR_BAR:
-        x, y, arm = (round(float(value), places) + 0.0 for value in dyad.row[6:] * scale)
-        document["ground"]["O6"] = [x, y]
-        document["joints"]["D"] = {"from": ["P", "O6"], "length": [rod, arm], "side": side}
-        output: dict[str, Any] = {"output": {"joints": ["O6", "D"]}}
-        more = {"x6": x, "y6": y, "rod": rod, "output": arm}
-    else:
-        angle, offset = float(dyad.row[6]), round(float(dyad.row[7]) * scale, places) + 0.0
-        line = {"through": "O2", "angle": f"{angle!r} rad", "offset": offset}
-        document["joints"]["D"] = {"from": "P", "length": rod, "line": line, "side": side}
-        output = {"slider": {"slider": "D"}}
-        more = {"rod": rod, "line_angle": angle, "offset": offset}
-    return {
-        "title": f"Six-bar that rests for {math.degrees(rest):.4g}°",
-        **stated,
-        "drive": {"joint": "A", "speed": "20 rpm", "start": f"{math.degrees(arc.start) % 360!r} deg"},
-        **document,
-        "bodies": {**document["bodies"], "rod": {"joints": ["P", "D"]}, **output},
-        "trace": {"joints": ["P", "D"]},
-    }, whole | more
