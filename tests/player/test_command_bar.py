@@ -121,7 +121,7 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: str) -> None:
 
 
 def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
-    assert {*ENTERED, "name", "record", "caption"} == {*KEYS_OF}
+    assert {*ENTERED, "name", "record", "caption", "ruler"} == {*KEYS_OF}
 
 
 def rows(state: State) -> list[str]:
