@@ -55,6 +55,7 @@ ENTERED: dict[str, tuple[Action | str, ...]] = {
     "paused": ("pause",),
     "edit": ("edit",),
     "list": ("list",),
+    "ruler": ("ruler",),
     "find": ("find",),
     "lesson": (Action("stage", LessonStep(load("crank-rocker")).text(1, 2)),),
     "shelf": ("shelf",),
