@@ -231,7 +231,7 @@ def test_off_a_disc_there_is_no_gap_and_no_overlap(way: complex, reach: float) -
 @pytest.mark.slow
 def test_a_name_without_a_place_has_a_leader_in_a_still_and_is_left_out_or_listed_in_motion() -> None:
     """Dimensions are listed in both, the others are said somewhere."""
-    scene, size = load("andrews"), (320, 180)
+    scene, size = load("andrews"), (480, 270)
     still, moving = (Picture(scene, size, Look(names=2), moment=moment).names for moment in (1.0, None))
     assert any(label.leader for label in still.labels)
     assert not any(label.leader for label in moving.labels)

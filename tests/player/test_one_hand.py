@@ -83,7 +83,7 @@ class Pointing(Hand):
     def cell(self, name: str) -> tuple[float, float, float]:
         """Return the middle of a button, and its width; the bar is brought back where it has faded."""
         shown = self.player.window.screen
-        if bar(shown.state) is None:
+        if not bar(shown.state):
             self.wake((shown.size[0] / 2, shown.size[1] - 30.0))
         assert bar(shown.state)
         buttons = bar(shown.state)
