@@ -56,3 +56,14 @@ def test_both_arrows_of_a_short_bars_dimension_are_seen(half: complex) -> None:
     arrows = [one for loop in line.loops for one in loop if abs(((one - MIDDLE) / half).real) < 1.0]
     hidden = [one for one in arrows if left < one.real < right and top < one.imag < bottom]
     assert len(hidden) < len(arrows) / 2
+    near = [complex(min(max(one.real, left), right), min(max(one.imag, top), bottom)) for one in arrows]
+    assert min(abs(one - other) for one, other in zip(arrows, near, strict=True)) < 10.0  # and it is near
+
+
+@pytest.mark.parametrize("half", [way * 8 / abs(way) for way in BARS])
+def test_a_value_alone_stands_close_to_a_short_bar(half: complex) -> None:
+    setting = Picture(load("crank-rocker"), (640, 360), Look()).drawing.setting
+    place = label_beside(setting, MIDDLE - half, MIDDLE + half, "120.5 mm").captions[0].around(setting.type)
+    lined = measure(setting, MIDDLE - half, MIDDLE + half, DimensionLine(("A", "B"), 0, 1, "120.5 mm"))
+    beyond = next(iter(lined)).captions[0].around(setting.type)
+    assert abs(place.middle - MIDDLE) < abs(beyond.middle - MIDDLE)
