@@ -170,7 +170,7 @@ def test_a_front_is_written_as_a_table(
 def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["path", "oval.csv", "--round", "1 mm", "--count", "1", "--json"]) == 0
     printed = capsys.readouterr()
-    assert printed.err.startswith("rounding takes the best from ")
+    assert "rounding takes the best from " in printed.err
     (row,) = json.loads(printed.out)
     assert all(value == round(value) for value in row["parameters"].values() if isinstance(value, float))
     assert row["rms_before_rounding"] < row["rms"]
