@@ -699,7 +699,7 @@ def test_the_half_angle_form_gives_the_angle_found(name: str, degrees: float) ->
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("jansen", r"At $\theta_{m}$ = 90.00°."), ("excavator", r"At $\theta_{\mathrm{boom}}$ = 8.57°.")],
+    [("jansen", r"At $\theta_{m}$ = 30.00°."), ("excavator", r"At $\theta_{\mathrm{boom}}$ = 59.99°.")],
 )
 def test_the_pose_is_one_that_moves_and_its_angle_is_set(
     name: str, said: str, capsys: pytest.CaptureFixture[str]
