@@ -49,9 +49,10 @@ def _end(state: State, place: tuple[float, float, float]) -> State:
     if ruler is None:
         return state
     x, y, reach = place
+    metre = state.displayed.linkage.metre
     away, joint = min((dist(at, (x, y)), name) for name, at in _places(state).items())
     before = ruler.ends if len(ruler.ends) < 2 else ()
-    return state.with_mode(replace(ruler, ends=(*before, joint if away <= reach else (x, y))))
+    return state.with_mode(replace(ruler, ends=(*before, joint if away <= reach else (x * metre, y * metre))))
 
 
 def _places(state: State) -> Mapping[str, Point]:
@@ -60,7 +61,7 @@ def _places(state: State) -> Mapping[str, Point]:
 
 @frozen
 class Ruler(Mode):
-    """The ruler on a scene: none, one or both of its ends, each a joint or a place in the plane."""
+    """The ruler on a scene, with up to two ends: each a joint, or a place in the plane in metres."""
 
     scene: Scene
     ends: tuple[str | Point, ...] = ()
@@ -83,22 +84,20 @@ class Ruler(Mode):
 
     def drawn(self, state: State) -> tuple[Addition, ...]:
         """Return the ruler, and at the head its length and direction."""
-        places, unit = _places(state), state.displayed.length_unit
-        laid = [places[end] if isinstance(end, str) else end for end in self.ends]
+        places, metre = _places(state), state.displayed.linkage.metre
+        laid = tuple(
+            places[end] if isinstance(end, str) else (end[0] / metre, end[1] / metre) for end in self.ends
+        )
         if len(laid) < 2:
-            return LaidRuler(self.ends, unit), Head(said(_HINT))
+            return LaidRuler(laid), Head(said(_HINT))
         (x, y), (u, v) = laid
         first, last = (subscripted(end) if isinstance(end, str) else said("a place") for end in self.ends)
-        angle = degrees(atan2(v - y, u - x)) % 360
-        long = f"{four_digits(dist((x, y), (u, v)))} {unit}"
+        length = f"{four_digits(dist((x, y), (u, v)))} {state.displayed.length_unit}"
+        angle = f"{four_digits(degrees(atan2(v - y, u - x)) % 360)}°"
         words = said(
-            "{first} to {last}: {length} at {angle}",
-            first=first,
-            last=last,
-            length=long,
-            angle=f"{four_digits(angle)}°",
+            "{first} to {last}: {length} at {angle}", first=first, last=last, length=length, angle=angle
         )
-        return LaidRuler(self.ends, unit), Head(words)
+        return LaidRuler(laid, length), Head(words)
 
     def mouse(self, gesture: Gesture, mouse: Hand, screen: Sight) -> tuple[Action, ...] | None:
         """Put down an end; None where the mouse acts as usual."""
@@ -111,17 +110,16 @@ class Ruler(Mode):
 
 @frozen
 class LaidRuler(Addition):
-    """The ends of a ruler, each a joint or a place in the plane, and its dimension line."""
+    """The ends of a ruler in the plane, and its length in words."""
 
-    ends: tuple[str | Point, ...]
-    unit: str
+    ends: tuple[Point, ...]
+    length: str = ""
 
     def groups(self, setting: DrawSetting, pose: Pose) -> Iterator[Group]:
         """Yield the ends, and the line between them."""
-        laid = [pose.position[end] if isinstance(end, str) else end for end in self.ends]
-        for place in laid:
+        del pose
+        for place in self.ends:
             yield crosshair("ruler-end", place, setting)
-        if len(laid) == 2:
-            begin, end = map(setting.view.pixel, laid)
-            line = DimensionLine(("", ""), 0, 1, f"{four_digits(dist(*laid))} {self.unit}", chosen=False)
-            yield from measure(setting, begin, end, line)
+        if self.length:
+            begin, end = map(setting.view.pixel, self.ends)
+            yield from measure(setting, begin, end, DimensionLine(("", ""), 0, 1, self.length, chosen=False))

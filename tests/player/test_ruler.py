@@ -63,7 +63,11 @@ def test_an_end_off_all_joints_stays_where_it_was_put(player: Player) -> None:
     player.drag(view.to_pixel(10.0, -30.0))
     assert words(player).startswith("a place to a place: ")
     ends = the(player.state, Ruler).ends
-    assert ends[0] == pytest.approx((-20.0, -30.0), abs=1.0 / view.scale)
+    assert ends[0] == pytest.approx((-0.020, -0.030), abs=1e-3 / view.scale)
+    length = float(words(player).split()[5])
+    player.press(pygame.K_u, SHIFT, "U")  # from mm to cm
+    player.tick(2)
+    assert words(player).split()[5:7] == [f"{length / 10:.3f}", "cm"]
     click(player, at="A")  # a third click begins anew
     assert the(player.state, Ruler).ends == ("A",)
 
